@@ -1,0 +1,15 @@
+//! Floor 0: vectors and frames, solid angles, warps of the square, colours, moments.
+//!
+//! Everything here is pure arithmetic with the same bits on every machine: transcendental functions go through
+//! [`real`], never through the platform's library.
+
+mod frame;
+pub mod hash;
+pub mod real;
+mod rgb;
+mod transform;
+
+pub use frame::{Frame, Local, World};
+pub use glam::{DMat3, DVec3, Vec2, Vec3};
+pub use rgb::Rgb;
+pub use transform::Transform;

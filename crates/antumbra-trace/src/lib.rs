@@ -1,0 +1,22 @@
+//! Floor 1: V(p, p′), which segments are free. Batches of segments and rays against triangles, spheres, disks and
+//! open cylinders; the answer is the mathematically exact one for the numbers given, at every SIMD level.
+//!
+//! The law is [`law`]; [`Brute`] asks it of every primitive; [`World`] answers the same, bit for bit, through a tree.
+
+mod batch;
+mod geometry;
+
+pub use batch::{Bits, Hits, SegmentBuffer, Segments, TO_POINT};
+pub use geometry::{Geometry, Instance, NO_PRIM, PrimId, Shape, Triangles};
+
+/// Which segments are blocked, what a ray meets first.
+///
+/// Law: equals `Brute` on every input, bit for bit.
+pub trait Visibility: Sync {
+    /// Sets bit i of `out` if anything lies strictly between the ends of segment i (any hit, no order).
+    fn occluded(&self, segments: Segments<'_>, out: &mut Bits);
+
+    /// The closest hit of each ray; ties by (instance, mesh, primitive) in builder order. `first` and `last` are
+    /// skipped as in [`occluded`](Visibility::occluded).
+    fn nearest(&self, rays: Segments<'_>, out: &mut Hits);
+}
