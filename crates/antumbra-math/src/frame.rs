@@ -80,7 +80,10 @@ mod tests {
     #[test]
     fn frames_are_orthonormal_and_invert() {
         for i in 0..1000u32 {
-            let u = [crate::hash::unit_f32(crate::hash::mix32(i)), crate::hash::unit_f32(crate::hash::mix32(i + 77_777))];
+            let u = [
+                crate::hash::unit_f32(crate::hash::mix32(i)),
+                crate::hash::unit_f32(crate::hash::mix32(i + 77_777)),
+            ];
             let z = 1.0 - 2.0 * u[0];
             let phi = 2.0 * crate::real::PI * u[1];
             let r = crate::real::safe_sqrt(1.0 - z * z);

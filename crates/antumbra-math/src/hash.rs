@@ -30,7 +30,5 @@ pub fn unit_f32(x: u32) -> f32 {
 
 /// FNV-1a over bytes, 64 bits: for names of pictures and scenes, not for random numbers.
 pub fn fnv1a(bytes: &[u8]) -> u64 {
-    bytes
-        .iter()
-        .fold(0xcbf2_9ce4_8422_2325, |h, &b| (h ^ u64::from(b)).wrapping_mul(0x0100_0000_01b3))
+    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |h, &b| (h ^ u64::from(b)).wrapping_mul(0x0100_0000_01b3))
 }
