@@ -1,0 +1,89 @@
+//! f_r: how a surface reflects. Floor 2. To add one: a file here and a line in `kinds!`.
+//!
+//! Local frame, n = +z, ω_o and ω_i point away from the surface; `eval` is WITHOUT the cosine.
+//! Laws of every kind: f(ω_o, ω_i) = f(ω_i, ω_o), albedo ≤ 1, `sample` agrees with `pdf` (χ²), finite at grazing.
+
+mod diffuse;
+
+pub use diffuse::Diffuse;
+
+use antumbra_math::{Local, Rgb};
+
+use crate::density::Density;
+
+/// A direction drawn from the BSDF.
+#[derive(Clone, Copy, Debug)]
+pub struct BsdfSample {
+    /// ω_i.
+    pub wi: Local,
+    /// f_r · |cos θ_i| / p(ω_i).
+    pub throughput: Rgb,
+    /// p(ω_i).
+    pub density: Density,
+}
+
+/// What each kind of reflection answers.
+pub trait BsdfKind {
+    /// f_r(ω_o, ω_i) [1/sr], without the cosine; 0 for kinds that reflect into single directions.
+    fn eval(&self, wo: Local, wi: Local) -> Rgb;
+    /// Draws ω_i; `None` if nothing is reflected.
+    fn sample(&self, wo: Local, u: [f32; 3]) -> Option<BsdfSample>;
+    /// p(ω_i) of `sample` [1/sr]; 0 for single directions.
+    fn pdf(&self, wo: Local, wi: Local) -> f32;
+    /// Reflects only into single directions: light sampling cannot see it.
+    fn is_delta(&self) -> bool {
+        false
+    }
+    /// About the share of light that is reflected (for the albedo picture, roulette).
+    fn albedo(&self) -> Rgb;
+    /// Examples for the contract tests.
+    fn examples() -> Vec<Self>
+    where
+        Self: Sized;
+}
+
+/// One enum of all kinds, its delegation, and the list that the contract tests walk through.
+macro_rules! kinds {
+    ($($kind:ident),* $(,)?) => {
+        /// How a surface reflects, one of the closed list of kinds.
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        pub enum Bsdf {
+            $(#[doc = concat!("See [`", stringify!($kind), "`].")] $kind($kind)),*
+        }
+        impl Bsdf {
+            /// See [`BsdfKind::eval`].
+            #[inline]
+            pub fn eval(&self, wo: Local, wi: Local) -> Rgb {
+                match self { $(Bsdf::$kind(b) => b.eval(wo, wi)),* }
+            }
+            /// See [`BsdfKind::sample`].
+            #[inline]
+            pub fn sample(&self, wo: Local, u: [f32; 3]) -> Option<BsdfSample> {
+                match self { $(Bsdf::$kind(b) => b.sample(wo, u)),* }
+            }
+            /// See [`BsdfKind::pdf`].
+            #[inline]
+            pub fn pdf(&self, wo: Local, wi: Local) -> f32 {
+                match self { $(Bsdf::$kind(b) => b.pdf(wo, wi)),* }
+            }
+            /// See [`BsdfKind::is_delta`].
+            #[inline]
+            pub fn is_delta(&self) -> bool {
+                match self { $(Bsdf::$kind(b) => b.is_delta()),* }
+            }
+            /// See [`BsdfKind::albedo`].
+            #[inline]
+            pub fn albedo(&self) -> Rgb {
+                match self { $(Bsdf::$kind(b) => b.albedo()),* }
+            }
+            /// Every kind's examples, with the kind's name.
+            pub fn examples() -> Vec<(&'static str, Bsdf)> {
+                let mut all = Vec::new();
+                $(all.extend($kind::examples().into_iter().map(|b| (stringify!($kind), Bsdf::$kind(b))));)*
+                all
+            }
+        }
+    };
+}
+
+kinds!(Diffuse);
