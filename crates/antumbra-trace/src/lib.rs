@@ -4,10 +4,16 @@
 //! The law is [`law`]; [`Brute`] asks it of every primitive; [`World`] answers the same, bit for bit, through a tree.
 
 mod batch;
+mod brute;
 mod geometry;
+pub mod law;
+mod passes;
+pub mod start;
 
 pub use batch::{Bits, Hits, SegmentBuffer, Segments, TO_POINT};
+pub use brute::Brute;
 pub use geometry::{Geometry, Instance, NO_PRIM, PrimId, Shape, Triangles};
+pub use passes::Passes;
 
 /// Which segments are blocked, what a ray meets first.
 ///
