@@ -53,7 +53,9 @@ impl<'a> Brute<'a> {
             }
             for primitive in 0..placed.geometry.len() {
                 let prim = placed.base + primitive as PrimId;
-                if prim == segments.last[i] || (prim == segments.first[i] && is_flat(placed.geometry, primitive)) {
+                if prim == segments.last[i]
+                    || (prim == segments.first[i] && is_flat(placed.geometry, primitive))
+                {
                     continue;
                 }
                 let Some(t) = hit(placed.geometry, primitive, &line) else { continue };

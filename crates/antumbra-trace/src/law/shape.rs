@@ -152,8 +152,5 @@ fn cylinder(line: &Line, p: [f64; 3], q: [f64; 3], r: f64, inside: Interval) -> 
         return None;
     }
     let h = (disc / k).sqrt();
-    [tc - h, tc + h].into_iter().find(|&t| {
-        let along = be + t * al;
-        inside.contains(t) && 0.0 <= along && along <= 1.0
-    })
+    [tc - h, tc + h].into_iter().find(|&t| inside.contains(t) && (0.0..=1.0).contains(&(be + t * al)))
 }
