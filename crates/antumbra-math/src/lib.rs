@@ -7,6 +7,7 @@ mod frame;
 pub mod hash;
 pub mod real;
 mod rgb;
+pub mod stats;
 mod transform;
 
 pub use frame::{Frame, Local, World};
