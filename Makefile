@@ -1,0 +1,54 @@
+# The verbs of this repository; `make` alone lists them. Everything they need is set up on the way.
+SHELL := /bin/bash
+.DEFAULT_GOAL := help
+.PHONY: help demo test lint bench stress docs wheel setup clean
+
+VENV := .venv
+BIN := $(VENV)/bin
+PYO3 := PYO3_PYTHON=$(CURDIR)/$(BIN)/python
+CARGO_ALL := --locked --profile demo
+SOURCES := pyproject.toml constraints.txt Cargo.toml Cargo.lock $(shell find crates -name '*.rs' -o -name Cargo.toml)
+
+help: ## this list
+	@grep -hE '^[a-z]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):.*## /  make \1\t/' | expand -t 14
+
+demo: $(VENV)/.ok ## render a first picture
+	@mkdir -p pictures
+	@$(BIN)/antumbra render pillars -o pictures/pillars.png
+
+test: $(VENV)/.dev ## every test, Rust and Python
+	@tools/run_tests.sh
+
+lint: $(VENV)/.dev ## form, types and lints of both languages
+	cargo fmt --check
+	$(PYO3) cargo clippy $(CARGO_ALL) --workspace --all-targets --features pyo3/extension-module -- -D warnings
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/mypy
+	$(BIN)/python -m mypy.stubtest antumbra._core
+	$(BIN)/python tools/third_party.py --check
+
+stress: $(VENV)/.dev ## the tests at full size (10⁸ rays; long)
+	@ANTUMBRA_STRESS=1 tools/run_tests.sh
+
+bench: $(VENV)/.ok ## measure speed: kernels, then races against other renderers
+	@tools/run_benches.sh
+
+docs: $(VENV)/.ok ## write the reference pages that are made from the source
+	$(BIN)/python tools/reference.py
+
+wheel: $(VENV)/.ok ## a wheel for other machines, in dist/
+	$(BIN)/pip wheel --quiet --no-deps -w dist .
+
+setup: $(VENV)/.dev ## the environment alone
+
+clean: ## remove everything that was built
+	rm -rf $(VENV) target dist python/antumbra/*.so
+
+$(VENV)/.ok: $(SOURCES)
+	@tools/setup.sh $(VENV) .
+	@touch $@
+
+$(VENV)/.dev: $(SOURCES)
+	@tools/setup.sh $(VENV) '.[dev]'
+	@touch $(VENV)/.ok $@

@@ -1,0 +1,72 @@
+"""Direct light and shadow: which part of each light does this point see, and how much light arrives from it?
+
+>>> import antumbra as am
+>>> scene = am.builtin("cornell-box")
+>>> image = scene.render(viewing_rays=4, size=(32, 32))
+>>> image.pixels.shape
+(32, 32, 3)
+
+Lengths are in scene units, radiance in W·m⁻²·sr⁻¹ (linear, Rec. 709 primaries), angles in radians.
+"""
+
+from __future__ import annotations
+
+import importlib
+from typing import TYPE_CHECKING, Any
+
+from antumbra._core import __version__
+from antumbra.errors import OptionError, RenderStopped, SceneError
+
+if TYPE_CHECKING:
+    from antumbra import lights, materials, shapes
+    from antumbra.estimate import Estimate
+    from antumbra.hit import Hit
+    from antumbra.image import Image, load_image
+    from antumbra.scene import Message, Scene, builtin, builtins, load
+
+__all__ = [
+    "Estimate",
+    "Hit",
+    "Image",
+    "Message",
+    "OptionError",
+    "RenderStopped",
+    "Scene",
+    "SceneError",
+    "__version__",
+    "builtin",
+    "builtins",
+    "lights",
+    "load",
+    "load_image",
+    "materials",
+    "shapes",
+]
+
+# Where each name lives. Imported when first asked for, because `import antumbra` must not wait for NumPy.
+_HOME = {
+    "Estimate": "estimate",
+    "Hit": "hit",
+    "Image": "image",
+    "Message": "scene",
+    "Scene": "scene",
+    "builtin": "scene",
+    "builtins": "scene",
+    "load": "scene",
+    "load_image": "image",
+}
+_MODULES = {"lights", "materials", "shapes"}
+
+
+def __getattr__(name: str) -> Any:
+    if name in _MODULES:
+        return importlib.import_module(f"antumbra.{name}")
+    if name in _HOME:
+        value = getattr(importlib.import_module(f"antumbra.{_HOME[name]}"), name)
+        globals()[name] = value
+        return value
+    raise AttributeError(f"module 'antumbra' has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return __all__

@@ -1,0 +1,119 @@
+"""A verb for click: examples first, options in groups, settings from the one table."""
+
+from __future__ import annotations
+
+import shutil
+import textwrap
+from collections.abc import Callable, Iterable, Sequence
+from typing import Any
+
+import click
+
+from antumbra.settings import Setting, as_typed, table
+
+GROUPS = ("Light", "Camera", "Sampling", "Looks", "Files", "Teaching", "Run")
+_COLUMN = 25
+
+
+class Option(click.Option):
+    """An option that knows its group of the help and, if it stands for one, its setting."""
+
+    def __init__(self, *names: str, group: str = "Run", setting: Setting | None = None, **rest: Any) -> None:
+        """As click's, with the group."""
+        super().__init__(list(names), **rest)
+        self.group, self.setting = group, setting
+
+
+class Verb(click.Command):
+    """One verb. `examples`: (command, what it shows), three of them; `groups`: whose settings it takes."""
+
+    def __init__(
+        self,
+        name: str,
+        run: Callable[..., None],
+        *,
+        examples: Sequence[tuple[str, str]],
+        arguments: Sequence[tuple[str, bool]],
+        options: Iterable[Option] = (),
+        groups: Iterable[str] = (),
+    ) -> None:
+        """`run` gets every argument and option by name, the settings given as one dict `settings`."""
+        own = [click.Argument([place.lower()], metavar=place, required=needed) for place, needed in arguments]
+        settings = [_option_of(s) for s in table().values() if s.group in set(groups)]
+        super().__init__(name, callback=run, params=[*own, *settings, *options, *_common()], help=run.__doc__)
+        self.examples = examples
+        self.has_settings = bool(settings)
+
+    def invoke(self, ctx: click.Context) -> Any:
+        """Gathers the settings that were given before the verb runs."""
+        if self.has_settings:
+            given = {}
+            for param in self.params:
+                if isinstance(param, Option) and param.setting:
+                    value = ctx.params.pop(param.name or "")
+                    if value is not None and value != ():
+                        given[param.setting.name] = "\n".join(value) if param.multiple else value
+            ctx.params["settings"] = given
+        return super().invoke(ctx)
+
+    def format_help(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """Usage, one sentence, examples, options in groups."""
+        formatter.write(self.page(min(max(shutil.get_terminal_size((80, 24)).columns, 60), 100)))
+
+    def page(self, width: int) -> str:
+        """The help at a width."""
+        places = " ".join(
+            p.metavar if p.required else f"[{p.metavar}]"
+            for p in self.params
+            if isinstance(p, click.Argument) and p.metavar
+        )
+        lines = [" ".join(f"Usage: antumbra {self.name} {places} [OPTIONS]".split()), ""]
+        lines += [
+            *textwrap.wrap(_first_paragraph(self.help), width, initial_indent="  ", subsequent_indent="  "),
+            "",
+        ]
+        lines += [f"  {command:<50}  {shows}".rstrip() for command, shows in self.examples]
+        for group in GROUPS:
+            options = [p for p in self.params if isinstance(p, Option) and p.group == group]
+            if options:
+                lines += ["", group, *(line for o in options for line in _option_lines(o, width))]
+        return "\n".join(lines)
+
+
+def _first_paragraph(text: str | None) -> str:
+    return " ".join((text or "").strip().split("\n\n")[0].split())
+
+
+def _option_of(setting: Setting) -> Option:
+    return Option(
+        setting.option,
+        group=setting.group,
+        setting=setting,
+        metavar=setting.metavar,
+        multiple=setting.repeats,
+        help=_help_of(setting),
+    )
+
+
+def _help_of(setting: Setting) -> str:
+    text = as_typed(setting.help)
+    if setting.choices:
+        listed = (f"{word} (default)" if word == setting.default else word for word in setting.choices)
+        return f"{text}: {', '.join(listed)}"
+    return f"{text} [{setting.default}]" if setting.default else text
+
+
+def _option_lines(option: Option, width: int) -> list[str]:
+    names = ", ".join([*sorted(option.opts, key=len)])
+    head = f"  {names}" + ("" if option.is_flag or not option.metavar else f" {option.metavar}")
+    text = textwrap.wrap(option.help or "", width - _COLUMN, break_on_hyphens=False)
+    if len(head) > _COLUMN - 2:
+        return [head, *(" " * _COLUMN + line for line in text)]
+    return [head.ljust(_COLUMN) + text[0], *(" " * _COLUMN + line for line in text[1:])]
+
+
+def _common() -> list[click.Parameter]:
+    return [
+        Option("--quiet", is_flag=True, help="only errors"),
+        Option("--verbose", is_flag=True, help="the whole chain of an error"),
+    ]

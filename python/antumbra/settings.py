@@ -1,0 +1,82 @@
+"""The one table of settings as Python sees it: keyword arguments to the words that people type."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Mapping
+from functools import cache
+from typing import Any, NamedTuple
+
+from antumbra import _core
+
+
+class Setting(NamedTuple):
+    """One entry of the table: `render(name=…)` here, `--name` (words joined by a dash) on the command line."""
+
+    name: str
+    group: str
+    metavar: str
+    choices: tuple[str, ...]
+    default: str
+    help: str
+    repeats: bool
+
+    @property
+    def option(self) -> str:
+        """Its name on the command line."""
+        return "--" + self.name.replace("_", "-")
+
+
+@cache
+def table() -> dict[str, Setting]:
+    """Every setting by name, in the order of the help."""
+    return {row[0]: Setting(*row) for row in _core.settings()}
+
+
+# Angles are in radians here; the table, made for people who type, has degrees.
+_ANGLES = {"fov"}
+
+
+def words(keywords: Mapping[str, Any]) -> dict[str, str]:
+    """Keyword arguments as the words of the table; None leaves a setting at its default.
+
+    Raises OptionError (a ValueError) with the nearest right name or value, TypeError for a kind of value that no
+    setting takes.
+    """
+    written = {name: _word(name, value) for name, value in keywords.items() if value is not None}
+    _core.check_settings(list(written.items()))
+    return written
+
+
+def _word(name: str, value: Any) -> str:
+    if isinstance(value, bool):
+        return "on" if value else "off"
+    if isinstance(value, (str, int)):
+        return str(value)
+    if name in _ANGLES and not _is_sequence(value):
+        return repr(math.degrees(float(value)))
+    if _is_sequence(value):
+        return ("\n" if table().get(name, _NONE).repeats else ",").join(_word("", v) for v in value)
+    try:
+        return repr(float(value)) if not hasattr(value, "__index__") else str(value.__index__())
+    except (TypeError, ValueError):
+        kind = type(value).__name__
+        raise TypeError(f"{name} is a {kind}: a number, a word or a sequence of them is needed") from None
+
+
+_NONE = Setting("", "", "", (), "", "", False)
+
+
+def _is_sequence(value: Any) -> bool:
+    return hasattr(value, "__len__") and hasattr(value, "__getitem__") and not isinstance(value, Mapping)
+
+
+def as_typed(text: str) -> str:
+    """A sentence about settings with their names as the command line spells them (`shadows = off` → --shadows off)."""
+
+    def option(found: re.Match[str]) -> str:
+        name = found["name"]
+        return table()[name].option + " " if name in table() else found[0]
+
+    return re.sub(r"`?\b(?P<name>[a-z]+(?:_[a-z]+)*)\b`? = ", option, text)
