@@ -21,16 +21,14 @@ impl BsdfKind for Diffuse {
         self.albedo * real::INV_PI
     }
 
-    /// p(ω) = cos θ / π (Malley: the disk lifted onto the hemisphere), so f·cos/p = ρ.
+    /// p(ω) = cos θ / π, so f·cos/p = ρ.
     #[inline]
     fn sample(&self, wo: Local, u: [f32; 3]) -> Option<BsdfSample> {
         if wo.cos() <= 0.0 {
             return None;
         }
-        let r = u[0].sqrt();
-        let phi = 2.0 * real::PI * u[1];
-        let z = (1.0 - u[0]).sqrt();
-        let wi = Local(Vec3::new(r * real::cosf(phi), r * real::sinf(phi), z));
+        let wi = cosine([u[0], u[1]]);
+        let z = wi.cos();
         if z <= 0.0 {
             return None;
         }
@@ -49,4 +47,12 @@ impl BsdfKind for Diffuse {
     fn examples() -> Vec<Diffuse> {
         vec![Diffuse { albedo: Rgb::grey(0.5) }, Diffuse { albedo: Rgb::WHITE }]
     }
+}
+
+/// A direction with p(ω) = cos θ / π (Malley: the disk lifted onto the hemisphere).
+#[inline]
+pub(super) fn cosine(u: [f32; 2]) -> Local {
+    let r = u[0].sqrt();
+    let phi = 2.0 * real::PI * u[1];
+    Local(Vec3::new(r * real::cosf(phi), r * real::sinf(phi), (1.0 - u[0]).sqrt()))
 }

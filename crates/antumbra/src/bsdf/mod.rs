@@ -4,8 +4,15 @@
 //! Laws of every kind: f(ω_o, ω_i) = f(ω_i, ω_o), albedo ≤ 1, `sample` agrees with `pdf` (χ²), finite at grazing.
 
 mod diffuse;
+mod ggx;
+mod ggx_albedo;
+mod metallic_roughness;
+mod mirror;
 
 pub use diffuse::Diffuse;
+pub use ggx::MIN_ALPHA;
+pub use metallic_roughness::MetallicRoughness;
+pub use mirror::Mirror;
 
 use antumbra_math::{Local, Rgb};
 
@@ -86,4 +93,4 @@ macro_rules! kinds {
     };
 }
 
-kinds!(Diffuse);
+kinds!(Diffuse, Mirror, MetallicRoughness);

@@ -1,0 +1,49 @@
+//! The perfect mirror: all light leaves in the one direction of equal angle.
+
+use antumbra_math::{Local, Rgb};
+
+use super::{BsdfKind, BsdfSample};
+use crate::density::Density;
+
+/// f_r = ρ · δ(ω_i − mirrored ω_o) / cos θ_i on the side of n; black seen from below.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Mirror {
+    /// ρ: share of the light that is reflected, per component in [0, 1], at every angle.
+    pub reflectance: Rgb,
+}
+
+impl BsdfKind for Mirror {
+    /// 0: two given directions never meet a single direction.
+    #[inline]
+    fn eval(&self, _wo: Local, _wi: Local) -> Rgb {
+        Rgb::BLACK
+    }
+
+    /// The mirrored direction; throughput ρ.
+    #[inline]
+    fn sample(&self, wo: Local, _u: [f32; 3]) -> Option<BsdfSample> {
+        if wo.cos() <= 0.0 {
+            return None;
+        }
+        Some(BsdfSample { wi: wo.mirrored(), throughput: self.reflectance, density: Density::Delta })
+    }
+
+    #[inline]
+    fn pdf(&self, _wo: Local, _wi: Local) -> f32 {
+        0.0
+    }
+
+    #[inline]
+    fn is_delta(&self) -> bool {
+        true
+    }
+
+    #[inline]
+    fn albedo(&self) -> Rgb {
+        self.reflectance
+    }
+
+    fn examples() -> Vec<Mirror> {
+        vec![Mirror { reflectance: Rgb::WHITE }, Mirror { reflectance: Rgb([0.9, 0.5, 0.1]) }]
+    }
+}
