@@ -8,7 +8,10 @@ pub mod hash;
 pub mod real;
 mod rgb;
 pub mod stats;
+pub mod solid_angle;
+pub mod spherical;
 mod transform;
+pub mod warp;
 
 pub use frame::{Frame, Local, World};
 pub use glam::{DMat3, DVec3, Vec2, Vec3};

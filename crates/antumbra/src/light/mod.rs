@@ -3,9 +3,29 @@
 //! Laws of every kind: `sample` agrees with `pdf` (χ²), E[1/pdf] = solid angle of the support, `hit` agrees with
 //! `sample`, `bounds` contain the light. Densities are in solid angle at the receiver, always.
 
+mod directional;
+mod disk;
+mod environment;
+mod flat;
+mod lat_long;
 mod point;
+mod rectangle;
+pub mod sampler;
+mod sphere;
+mod spot;
+mod steps;
+mod sun;
+mod triangle;
 
+pub use directional::Directional;
+pub use disk::Disk;
+pub use environment::Environment;
 pub use point::Point;
+pub use rectangle::Rectangle;
+pub use sphere::Sphere;
+pub use spot::Spot;
+pub use sun::Sun;
+pub use triangle::Triangle;
 
 use antumbra_math::{Rgb, World};
 use antumbra_trace::{PrimId, Shape};
@@ -63,6 +83,15 @@ pub struct LightHit {
     pub radiance: Rgb,
 }
 
+/// A point of the silhouette of a light.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OutlinePoint {
+    /// ω: unit vector toward it.
+    pub wi: World,
+    /// Where a segment to it ends.
+    pub end: End,
+}
+
 /// Where a light may be and where it may shine.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LightBounds {
@@ -74,6 +103,13 @@ pub struct LightBounds {
     pub axis: World,
     /// … whose cosine is this (−1: everywhere).
     pub cos_spread: f32,
+}
+
+impl LightBounds {
+    /// Those of a light at infinity that shines along `axis`, within a cone about it.
+    pub fn at_infinity(axis: World, cos_spread: f32) -> LightBounds {
+        LightBounds { low: World::NEG_INFINITY, high: World::INFINITY, axis, cos_spread }
+    }
 }
 
 /// The surface of an area light.
@@ -103,7 +139,7 @@ pub trait LightKind {
     /// Where it is.
     fn bounds(&self) -> LightBounds;
     /// A point of its silhouette as seen from `at`, u in [0, 1) once around; `None` for delta lights and the sky.
-    fn outline(&self, at: &Receiver, u: f32) -> Option<End>;
+    fn outline(&self, at: &Receiver, u: f32) -> Option<OutlinePoint>;
     /// Fills no solid angle.
     fn is_delta(&self) -> bool {
         false
@@ -147,7 +183,7 @@ macro_rules! kinds {
                 irradiance(at: &Receiver) (at) -> f32;
                 power(scene_radius: f32) (scene_radius) -> f32;
                 bounds() () -> LightBounds;
-                outline(at: &Receiver, u: f32) (at, u) -> Option<End>;
+                outline(at: &Receiver, u: f32) (at, u) -> Option<OutlinePoint>;
                 is_delta() () -> bool;
                 is_infinite() () -> bool;
                 is_environment() () -> bool;
@@ -183,4 +219,4 @@ macro_rules! kinds {
     };
 }
 
-kinds!(Point);
+kinds!(Point, Spot, Directional, Sun, Triangle, Rectangle, Disk, Sphere, Environment);

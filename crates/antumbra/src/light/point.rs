@@ -3,7 +3,8 @@
 use antumbra_math::{Rgb, World, real};
 use antumbra_trace::NO_PRIM;
 
-use super::{End, LightBounds, LightHit, LightKind, LightPoints, LightSample};
+use super::flat::amount_fault;
+use super::{End, LightBounds, LightHit, LightKind, LightPoints, LightSample, OutlinePoint};
 use crate::density::Density;
 use crate::receiver::Receiver;
 
@@ -64,7 +65,7 @@ impl LightKind for Point {
         LightBounds { low: self.position, high: self.position, axis: World::Y, cos_spread: -1.0 }
     }
 
-    fn outline(&self, _at: &Receiver, _u: f32) -> Option<End> {
+    fn outline(&self, _at: &Receiver, _u: f32) -> Option<OutlinePoint> {
         None
     }
 
@@ -73,9 +74,9 @@ impl LightKind for Point {
     }
 
     fn fault(&self) -> Option<String> {
-        let intensity = self.intensity;
-        (!self.position.is_finite() || !intensity.is_finite() || intensity.0.iter().any(|c| *c < 0.0))
-            .then(|| format!("position {} or intensity {:?} is not usable", self.position, intensity.0))
+        let lost = !self.position.is_finite();
+        lost.then(|| format!("its position {} is not finite", self.position))
+            .or_else(|| amount_fault(self.intensity))
     }
 
     fn examples() -> Vec<Point> {

@@ -1,0 +1,156 @@
+//! A disk that shines from its front, the side of its normal.
+
+use antumbra_math::{DVec3, Rgb, World, real, solid_angle, warp};
+use antumbra_trace::{NO_PRIM, PrimId, Shape};
+
+use super::flat::Front;
+use super::{LightBounds, LightHit, LightKind, LightPoints, LightSample, LightSurface, OutlinePoint};
+use crate::receiver::Receiver;
+
+/// A disk light.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Disk {
+    /// Centre.
+    pub center: World,
+    /// Normal of the front, of any length above 0.
+    pub normal: World,
+    /// Radius R.
+    pub radius: f32,
+    /// Radiance L_e [W·m⁻²·sr⁻¹], the same in every direction.
+    pub radiance: Rgb,
+    /// The back shines too.
+    pub both_sides: bool,
+    prim: PrimId,
+}
+
+impl Disk {
+    /// A disk that shines from the side of its normal.
+    pub fn new(center: World, normal: World, radius: f32, radiance: Rgb) -> Disk {
+        Disk { center, normal, radius, radiance, both_sides: false, prim: NO_PRIM }
+    }
+
+    /// Whether the back shines too.
+    pub fn both_sides(self, both_sides: bool) -> Disk {
+        Disk { both_sides, ..self }
+    }
+
+    #[inline]
+    fn front(&self) -> Front {
+        let radius = f64::from(self.radius);
+        Front {
+            n: self.normal.as_dvec3().normalize(),
+            area: std::f64::consts::PI * radius * radius,
+            extent: self.center.as_dvec3().abs().max_element() + radius,
+            radiance: self.radiance,
+            both_sides: self.both_sides,
+        }
+    }
+
+    /// The point of the disk at (x, y) of the unit disk.
+    #[inline]
+    fn point(&self, n: DVec3, x: f32, y: f32) -> DVec3 {
+        let (s, t) = n.any_orthonormal_pair();
+        self.center.as_dvec3() + (s * f64::from(x) + t * f64::from(y)) * f64::from(self.radius)
+    }
+}
+
+/// Edges of the polygon around a disk that the horizon cuts.
+const EDGES: usize = 16;
+
+impl LightKind for Disk {
+    /// Uniform on the area for both ways of drawing (the solid angle of a disk has no elementary map):
+    /// p(ω) = r² / (A cos θ′).
+    #[inline]
+    fn sample(&self, at: &Receiver, u: [f32; 2], _how: LightPoints) -> Option<LightSample> {
+        let front = self.front();
+        let d = warp::disk(u);
+        front.sample(at.p, self.point(front.n, d.x, d.y), self.prim, None)
+    }
+
+    #[inline]
+    fn pdf(&self, at: &Receiver, wi: World, _how: LightPoints) -> f32 {
+        let distance = self.hit(at.p, wi).map(|hit| f64::from(hit.distance));
+        distance.map_or(0.0, |r| self.front().area_pdf(wi.as_dvec3(), r))
+    }
+
+    #[inline]
+    fn hit(&self, from: World, wi: World) -> Option<LightHit> {
+        let (o, d, c) = (from.as_dvec3(), wi.as_dvec3(), self.center.as_dvec3());
+        let front = self.front();
+        let distance = front.plane_distance(o, d, c)?;
+        let inside = (o + d * distance - c).length_squared() <= f64::from(self.radius * self.radius);
+        if inside { front.hit(d, distance) } else { None }
+    }
+
+    fn emitted(&self, _wi: World, front: bool) -> Rgb {
+        self.front().emitted(front)
+    }
+
+    /// Exact above the horizon; cut by it, a little more: that of the polygon of 16 edges around it.
+    fn irradiance(&self, at: &Receiver) -> f32 {
+        let front = self.front();
+        let (c, n) = (self.center.as_dvec3() - at.p.as_dvec3(), at.ng.as_dvec3());
+        let radius = f64::from(self.radius);
+        let tilt = n.dot(front.n);
+        let reach = radius * (1.0 - tilt * tilt).max(0.0).sqrt();
+        let height = n.dot(c);
+        if height >= reach {
+            return front.irradiance(solid_angle::disk_irradiance(c, front.n, radius, n));
+        }
+        if height <= -reach {
+            return 0.0;
+        }
+        let (s, t) = front.n.any_orthonormal_pair();
+        // Counter-clockwise seen from the front: n = s × t.
+        let around = radius / real::cos(std::f64::consts::PI / EDGES as f64);
+        let corners: [DVec3; EDGES] = std::array::from_fn(|i| {
+            let phi = std::f64::consts::TAU * i as f64 / EDGES as f64;
+            c + (s * real::cos(phi) + t * real::sin(phi)) * around
+        });
+        front.irradiance(solid_angle::polygon_irradiance(&corners, n))
+    }
+
+    fn power(&self, _scene_radius: f32) -> f32 {
+        self.front().power()
+    }
+
+    /// Half-width of the box along axis i: R √(1 − nᵢ²).
+    fn bounds(&self) -> LightBounds {
+        let n = self.front().n.as_vec3();
+        let half = (World::ONE - n * n).max(World::ZERO).map(f32::sqrt) * (self.radius * (1.0 + 1e-6));
+        self.front().bounds(&[self.center - half, self.center + half])
+    }
+
+    /// Its rim.
+    fn outline(&self, at: &Receiver, u: f32) -> Option<OutlinePoint> {
+        let front = self.front();
+        let phi = 2.0 * real::PI * u;
+        front.outline(at.p, self.point(front.n, real::cosf(phi), real::sinf(phi)))
+    }
+
+    fn surface(&self) -> Option<LightSurface> {
+        Some(LightSurface::Shape(Shape::Disk {
+            center: self.center.to_array(),
+            normal: self.normal.to_array(),
+            radius: self.radius,
+        }))
+    }
+
+    fn fault(&self) -> Option<String> {
+        if !self.center.is_finite() || !self.radius.is_finite() || self.radius <= 0.0 {
+            return Some(format!("its centre {} or radius {} is not usable", self.center, self.radius));
+        }
+        self.front().fault("the disk")
+    }
+
+    fn set_first_prim(&mut self, first: PrimId) {
+        self.prim = first;
+    }
+
+    fn examples() -> Vec<Disk> {
+        let lamp =
+            Disk::new(World::new(0.3, 2.0, 0.0), World::new(0.0, -1.0, 0.2), 1.0, Rgb::new(4.0, 3.0, 2.0));
+        let wall = Disk::new(World::new(1.5, 0.2, 0.0), World::new(-2.0, 0.0, 0.0), 1.0, Rgb::WHITE);
+        vec![lamp, wall.both_sides(true)]
+    }
+}

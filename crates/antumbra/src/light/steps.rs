@@ -1,0 +1,95 @@
+//! Choosing in proportion to weights, exactly: probabilities are whole multiples of 2⁻²⁴, the grain of the random
+//! numbers, so that the frequency of every choice *is* its probability, and no weight above 0 is lost to rounding.
+
+use antumbra_math::real;
+
+/// Number of steps that the weights share.
+pub const STEPS: u32 = 1 << 24;
+
+/// What was chosen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Choice {
+    /// Index of the weight.
+    pub index: usize,
+    /// Its probability.
+    pub prob: f32,
+    /// Where in its part of [0, 1) the number fell, stretched to [0, 1): a number to use again.
+    pub rest: f32,
+}
+
+/// Fills `ends` with the running numbers of steps: w_i / Σw of what is left after one step for each weight above 0.
+/// `ends` is empty if no weight is above 0. At most 2²⁴ weights.
+pub fn share_out(weights: impl Iterator<Item = f32> + Clone, ends: &mut Vec<u32>) {
+    let usable = weights.map(|w| f64::from(w.clamp(0.0, f32::MAX)));
+    let (mut sum, mut count) = (0.0, 0);
+    for w in usable.clone().filter(|w| *w > 0.0) {
+        sum += w;
+        count += 1;
+    }
+    ends.clear();
+    if count == 0 {
+        return;
+    }
+    let free = f64::from(STEPS - count);
+    let (mut run, mut seen) = (0.0, 0);
+    ends.extend(usable.map(|w| {
+        if w > 0.0 {
+            run += w;
+            seen += 1;
+        }
+        (run / sum * free) as u32 + seen
+    }));
+}
+
+/// The weight that `u` in [0, 1) falls on; `None` if there is none.
+#[inline]
+pub fn pick(ends: &[u32], u: f32) -> Option<Choice> {
+    let step = ((u * STEPS as f32) as u32).min(STEPS - 1);
+    let index = ends.partition_point(|end| *end <= step);
+    let (low, high) = part(ends, index)?;
+    let rest = ((step - low) as f32 + 0.5) / (high - low) as f32;
+    Some(Choice { index, prob: (high - low) as f32 / STEPS as f32, rest: rest.min(real::ONE_MINUS) })
+}
+
+/// The probability of weight `index`.
+#[inline]
+pub fn prob(ends: &[u32], index: usize) -> f32 {
+    part(ends, index).map_or(0.0, |(low, high)| (high - low) as f32 / STEPS as f32)
+}
+
+/// First step of weight `index` and the first after it.
+#[inline]
+fn part(ends: &[u32], index: usize) -> Option<(u32, u32)> {
+    let high = *ends.get(index)?;
+    Some((if index == 0 { 0 } else { ends[index - 1] }, high))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Every step of the grain once: the frequency of each choice is its probability, and all of them sum to 1.
+    #[test]
+    fn frequency_is_probability_exactly() {
+        let weights = [0.0, 1e-30, 3.0, 0.0, f32::INFINITY, 2.5, f32::NAN, 1e30, -1.0];
+        let mut ends = Vec::new();
+        share_out(weights.iter().copied(), &mut ends);
+        let mut seen = [0u32; 9];
+        for step in 0..STEPS {
+            let choice = pick(&ends, step as f32 / STEPS as f32).unwrap();
+            assert!((0.0..1.0).contains(&choice.rest));
+            seen[choice.index] += 1;
+        }
+        for (i, n) in seen.iter().enumerate() {
+            assert_eq!(*n as f32 / STEPS as f32, prob(&ends, i));
+            assert_eq!(*n > 0, weights[i] > 0.0, "weight {i}");
+        }
+    }
+
+    #[test]
+    fn nothing_to_choose() {
+        let mut ends = vec![1, 2];
+        share_out([0.0, -1.0, f32::NAN].into_iter(), &mut ends);
+        assert_eq!((pick(&ends, 0.5), prob(&ends, 0)), (None, 0.0));
+    }
+}
