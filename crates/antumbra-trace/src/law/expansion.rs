@@ -38,13 +38,29 @@ fn split(a: f64) -> (f64, f64) {
     (high, a - high)
 }
 
+/// A factor with its halves.
+#[derive(Clone, Copy)]
+struct Split {
+    whole: f64,
+    high: f64,
+    low: f64,
+}
+
+impl Split {
+    #[inline]
+    fn new(b: f64) -> Split {
+        let (high, low) = split(b);
+        Split { whole: b, high, low }
+    }
+}
+
 /// a · b = `.0` + `.1` exactly (Dekker).
 #[inline]
-fn two_prod(a: f64, (b, b_high, b_low): (f64, f64, f64)) -> (f64, f64) {
-    let x = a * b;
-    let (a_high, a_low) = split(a);
-    let error = ((x - a_high * b_high) - a_low * b_high) - a_high * b_low;
-    (x, a_low * b_low - error)
+fn two_prod(a: f64, b: Split) -> (f64, f64) {
+    let x = a * b.whole;
+    let (high, low) = split(a);
+    let error = ((x - high * b.high) - low * b.high) - high * b.low;
+    (x, low * b.low - error)
 }
 
 /// An exact sum of up to `N` numbers, none of them 0, from the smallest to the largest magnitude, strongly
@@ -62,7 +78,7 @@ impl<const N: usize> Expansion<N> {
         Expansion { terms: [MaybeUninit::uninit(); N], len: 0 }
     }
 
-    /// high + low, as [`two_sum`], [`two_diff`] and `two_prod` give them.
+    /// high + low, as [`two_sum`], [`two_diff`] and [`two_prod`] give them.
     #[inline]
     pub(crate) fn of((high, low): (f64, f64)) -> Expansion<N> {
         let mut e = Expansion::zero();
@@ -74,17 +90,17 @@ impl<const N: usize> Expansion<N> {
     /// Appends `x` unless it is 0.
     #[inline]
     fn push(&mut self, x: f64) {
-        if x != 0.0 {
-            self.terms[self.len].write(x);
-            self.len += 1;
-        }
+        // Without a branch: a 0 is overwritten by the next number. No operation below appends more than `N` numbers,
+        // zeros included (but a first 0 of `carry`), so the slot exists.
+        self.terms[self.len].write(x);
+        self.len += usize::from(x != 0.0);
     }
 
     /// The numbers, smallest first.
     #[inline]
     pub(crate) fn terms(&self) -> &[f64] {
         let written = &self.terms[..self.len];
-        // SAFETY: `len` grows only in `push`, which writes slot `len` first, so slots 0..len are initialised; and
+        // SAFETY: `len` grows only in `push`, by one and after slot `len` is written: slots 0..len are initialised; and
         // MaybeUninit<f64> has the size and alignment of f64.
         unsafe { std::slice::from_raw_parts(written.as_ptr().cast::<f64>(), written.len()) }
     }
@@ -105,66 +121,56 @@ impl<const N: usize> Expansion<N> {
         self.terms().iter().sum()
     }
 
-    /// The sum with its sign turned.
+    /// self = e + f (`FAST-EXPANSION-SUM` with zero elimination); `N` is at least the sum of both lengths.
     #[inline]
-    pub(crate) fn negated(&self) -> Expansion<N> {
-        let mut out = Expansion::zero();
-        for &x in self.terms() {
-            out.push(-x);
+    pub(crate) fn set_sum(&mut self, e: &[f64], f: &[f64]) {
+        self.len = 0;
+        let (mut i, mut j) = (0, 0);
+        let mut q = 0.0;
+        // Both lists merged by magnitude, smallest first; what a sum rounds off goes out.
+        while i < e.len() && j < f.len() {
+            let take_e = e[i].abs() < f[j].abs();
+            let x = if take_e { e[i] } else { f[j] };
+            i += usize::from(take_e);
+            j += usize::from(!take_e);
+            q = self.carry(q, x);
         }
-        out
+        for &x in e[i..].iter().chain(&f[j..]) {
+            q = self.carry(q, x);
+        }
+        self.push(q);
     }
-}
 
-/// e + f (`FAST-EXPANSION-SUM` with zero elimination). `N` is at least the sum of both lengths.
-#[inline]
-pub(crate) fn sum<const N: usize>(e: &[f64], f: &[f64]) -> Expansion<N> {
-    let mut out = Expansion::zero();
-    let (mut i, mut j) = (0, 0);
-    // Merges both by magnitude, smallest first.
-    let mut next = || {
-        let take_e = match (e.get(i), f.get(j)) {
-            (Some(x), Some(y)) => x.abs() < y.abs(),
-            (Some(_), None) => true,
-            (None, Some(_)) => false,
-            (None, None) => return None,
-        };
-        let (list, at) = if take_e { (e, &mut i) } else { (f, &mut j) };
-        *at += 1;
-        Some(list[*at - 1])
-    };
-    let Some(mut q) = next() else { return out };
-    if let Some(second) = next() {
-        let (high, low) = fast_two_sum(second, q);
-        out.push(low);
-        q = high;
+    /// self = e · b (`SCALE-EXPANSION` with zero elimination); `N` is at least twice the length of e.
+    #[inline]
+    pub(crate) fn set_scaled(&mut self, e: &[f64], b: f64) {
+        self.len = 0;
+        let Some((&first, rest)) = e.split_first() else { return };
+        let b = Split::new(b);
+        let (mut q, low) = two_prod(first, b);
+        self.push(low);
+        for &x in rest {
+            let (product, product_low) = two_prod(x, b);
+            let sum = self.carry(q, product_low);
+            let (high, low) = fast_two_sum(product, sum);
+            self.push(low);
+            q = high;
+        }
+        self.push(q);
     }
-    while let Some(x) = next() {
+
+    /// self = −e.
+    #[inline]
+    pub(crate) fn set_negated(&mut self, e: &Expansion<N>) {
+        self.len = 0;
+        e.terms().iter().for_each(|x| self.push(-x));
+    }
+
+    /// q + x rounded; the rest is appended.
+    #[inline]
+    fn carry(&mut self, q: f64, x: f64) -> f64 {
         let (high, low) = two_sum(q, x);
-        out.push(low);
-        q = high;
+        self.push(low);
+        high
     }
-    out.push(q);
-    out
-}
-
-/// e · b (`SCALE-EXPANSION` with zero elimination). `N` is at least twice the length of e.
-#[inline]
-pub(crate) fn scale<const N: usize>(e: &[f64], b: f64) -> Expansion<N> {
-    let mut out = Expansion::zero();
-    let Some((&first, rest)) = e.split_first() else { return out };
-    let (high, low) = split(b);
-    let b = (b, high, low);
-    let (mut q, low) = two_prod(first, b);
-    out.push(low);
-    for &x in rest {
-        let (product, product_low) = two_prod(x, b);
-        let (sum, low) = two_sum(q, product_low);
-        out.push(low);
-        let (high, low) = fast_two_sum(product, sum);
-        out.push(low);
-        q = high;
-    }
-    out.push(q);
-    out
 }

@@ -41,7 +41,7 @@ pub struct Case {
 pub type Generator = fn(&mut Rng) -> Case;
 
 /// All of them, by name.
-pub const GENERATORS: [(&str, Generator); 9] = [
+pub const GENERATORS: [(&str, Generator); 10] = [
     ("soup", soup),
     ("aimed", aimed),
     ("coplanar", coplanar),
@@ -50,6 +50,7 @@ pub const GENERATORS: [(&str, Generator); 9] = [
     ("lattice", lattice),
     ("mixed exponents", mixed_exponents),
     ("instance", instance),
+    ("exact instance", exact_instance),
     ("end on triangle", end_on_triangle),
 ];
 
@@ -171,6 +172,30 @@ pub fn instance(r: &mut Rng) -> Case {
     Case { corners, question: question(o, target, r), object_from_world: world_from_object.inverse() }
 }
 
+/// An object turned by quarters, mirrored, scaled by powers of two and moved by whole numbers: coincidences survive
+/// the map, which is exact.
+pub fn exact_instance(r: &mut Rng) -> Case {
+    let case = if r.below(2) == 0 { lattice(r) } else { end_on_triangle(r) };
+    let mut axes = [DVec3::X, DVec3::Y, DVec3::Z];
+    axes.swap(r.below(3) as usize, r.below(3) as usize);
+    let linear = axes.map(|axis| {
+        let size = f64::from((r.below(41) as f32 - 20.0).exp2_exact());
+        if r.below(2) == 0 { axis * size } else { axis * -size }
+    });
+    let translation = DVec3::from_array([0; 3].map(|_| r.below(9) as f64 - 4.0));
+    let object_from_world =
+        Transform { linear: DMat3::from_cols_array_2d(&linear.map(|c| c.to_array())), translation };
+    // The question is asked where the map brings it back to the lattice.
+    let Some(world) = object_from_world.inverse() else { return case };
+    let point = |p: [f32; 3]| to_f32(world.point(DVec3::from_array(to_f64(p))).to_array());
+    let vector = |d: [f32; 3]| to_f32(world.vector(DVec3::from_array(to_f64(d))).to_array());
+    let question = match case.question {
+        Question::Segment { p, q } => Question::Segment { p: point(p), q: point(q) },
+        Question::Ray { o, d, tmax } => Question::Ray { o: point(o), d: vector(d), tmax },
+    };
+    Case { question, object_from_world: Some(object_from_world), ..case }
+}
+
 /// One end is a corner of the triangle or a point of its plane's lattice: the open ends of the interval.
 pub fn end_on_triangle(r: &mut Rng) -> Case {
     let mut point = || [0; 3].map(|_| r.below(9) as f32 - 4.0);
@@ -187,7 +212,7 @@ pub fn end_on_triangle(r: &mut Rng) -> Case {
 }
 
 /// 2^x for whole x, without rounding.
-trait ExactExp2 {
+pub trait ExactExp2 {
     fn exp2_exact(self) -> f32;
 }
 
