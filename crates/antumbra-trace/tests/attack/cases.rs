@@ -37,6 +37,17 @@ pub struct Case {
     pub object_from_world: Option<Transform>,
 }
 
+impl Case {
+    /// No number of the case loses a bit when it is multiplied by `s` (none becomes subnormal).
+    pub fn is_exact_times(&self, s: f32) -> bool {
+        let (p, q) = match self.question {
+            Question::Segment { p, q } => (p, q),
+            Question::Ray { o, d, .. } => (o, d),
+        };
+        self.corners.iter().flatten().chain(&p).chain(&q).all(|x| x * s / s == *x)
+    }
+}
+
 /// A generator of cases.
 pub type Generator = fn(&mut Rng) -> Case;
 

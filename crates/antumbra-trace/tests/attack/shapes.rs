@@ -124,7 +124,7 @@ fn every_hit_lies_in_the_box() {
         // Tangents and their neighbours as well.
         let tangent = cross(n, r.direction());
         let height = reach * [0.0, 1e-16, -1e-12, 1e-7, -1e-3][r.below(5) as usize];
-        let o = mix([1.0, height, r.signed_power(-3.0, 4.0) * reach], [p, n, tangent]);
+        let o = mix([1.0, height, r.signed_power(-3.0, 10.0) * reach], [p, n, tangent]);
         let line = Line::ray(to_f32(o), to_f32(tangent), f32::INFINITY);
         let Some(t) = shape(&line, &s) else { continue };
         for k in 0..3 {

@@ -1,8 +1,9 @@
 //! LAW §7.6 (T5): what leaves a surface from its start never meets its own triangle nor its coplanar and convex
 //! neighbours, and never loses a wall that stands on it; at scales 10⁻⁶ to 10⁶ and offsets to 10³ times the size.
 
+use antumbra_math::{DMat3, DVec3, Transform};
 use antumbra_trace::law::{Line, blocks};
-use antumbra_trace::start::{start_free, start_on_triangle};
+use antumbra_trace::start::{start_free, start_on_placed_triangle, start_on_triangle};
 
 use crate::rng::{Rng, amount, cross, dot, mix, to_f32, to_f64, unit};
 
@@ -98,6 +99,54 @@ fn coplanar_neighbours_never_block() {
         assert!(!blocks(&line, other), "{other:?} blocks {line:?} from {own:?}");
     }
     assert!(asked > 10_000);
+}
+
+#[test]
+fn coplanar_neighbours_in_an_instance_never_block() {
+    let mut r = Rng::new(3006);
+    let mut asked = 0;
+    for _ in 0..amount(60_000, 2_000_000) {
+        // Object numbers up to 10³ times the size, brought back near the world's origin: R a and t nearly cancel.
+        let place = Place::random(&mut r);
+        let ideal = r.direction();
+        let x = unit(cross(ideal, r.direction()));
+        let y = cross(ideal, x);
+        let mut point = || place.point(mix([r.range(-1.0, 1.0), r.range(-1.0, 1.0)], [x, y]));
+        let (own, other) = ([point(), point(), point()], [point(), point(), point()]);
+        let Some(n) = normal(own).filter(|n| dot(*n, ideal).abs() > 0.8) else { continue };
+        let turn = unit(cross(ideal, r.direction()));
+        let rotation = DMat3::from_cols_array_2d(&[turn, cross(turn, ideal), ideal]).transpose();
+        let linear = rotation * r.signed_power(-2.0, 2.0);
+        let near = DVec3::from_array(r.cube(place.size));
+        let placement = Transform { linear, translation: near - linear * DVec3::from_array(place.center) };
+        let Some(object_from_world) = placement.inverse() else { continue };
+
+        let world = |p: [f64; 3]| placement.point(DVec3::from_array(p)).to_array();
+        let outward = |n: [f64; 3]| unit(placement.normal(DVec3::from_array(n)).to_array());
+        let (m, n) = (outward(ideal), outward(n));
+        let n = if dot(n, m) < 0.0 { n.map(|x| -x) } else { n };
+        let p = world(mix(r.weights(), own.map(to_f64)));
+        let o = start_on_placed_triangle(
+            p,
+            n,
+            own.map(|c| world(to_f64(c))),
+            extent(&placement, &[own, other].concat()),
+        );
+        let d = to_f32(leaving(m, &mut r));
+        let line = Line::ray(o, d, f32::INFINITY).to_object(&object_from_world);
+        asked += 1;
+        assert!(!blocks(&line, other), "{other:?} blocks {line:?} from {own:?}");
+        assert!(dot(to_f64(d), n) < 0.0 || !blocks(&line, own), "{own:?} blocks {line:?}");
+    }
+    assert!(asked > 10_000);
+}
+
+/// max(‖R‖∞ |a|∞, |t|∞).
+fn extent(placement: &Transform, points: &[[f32; 3]]) -> f64 {
+    let rows = placement.linear.transpose();
+    let norm =
+        [rows.x_axis, rows.y_axis, rows.z_axis].iter().fold(0f64, |m, row| m.max(row.abs().element_sum()));
+    (norm * f64::from(largest(points))).max(placement.translation.abs().max_element())
 }
 
 /// A floor in z = 0 with the crease x = 0 as its edge, and a wall on that crease at `angle`, in a random frame.
