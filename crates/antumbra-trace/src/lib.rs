@@ -5,15 +5,28 @@
 
 mod batch;
 mod brute;
+mod build;
+mod counted;
+mod dispatch;
+mod draft;
 mod geometry;
 pub mod law;
+mod layout;
 mod passes;
+mod place;
 pub mod start;
+mod traverse;
+mod walk;
+mod world;
 
 pub use batch::{Bits, Hits, SegmentBuffer, Segments, TO_POINT};
 pub use brute::Brute;
+pub use build::{BuildOptions, Pool};
+pub use counted::Work;
+pub use dispatch::SimdLevel;
 pub use geometry::{Geometry, Instance, NO_PRIM, PrimId, Shape, Triangles};
 pub use passes::Passes;
+pub use world::{TreeStats, World, WorldError};
 
 /// Which segments are blocked, what a ray meets first.
 ///

@@ -51,8 +51,10 @@ pub(crate) fn combine(l: &Summary, r: &Summary, counts: (usize, usize), half_are
         spread[slots] = best;
     }
     (out.cost[0], out.ways[0]) = (half_area + spread[WIDTH].0, spread[WIDTH].1);
-    if fits && !(out.cost[0] < LEAF_COST * half_area) {
-        (out.cost[0], out.ways[0]) = (LEAF_COST * half_area, 0);
+    let leaf = LEAF_COST * half_area;
+    let pays = out.cost[0] < leaf;
+    if fits && !pays {
+        (out.cost[0], out.ways[0]) = (leaf, 0);
     }
     for slots in 2..=WIDTH {
         out.cost[slots - 1] = out.cost[slots - 2];

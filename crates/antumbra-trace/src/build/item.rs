@@ -46,12 +46,6 @@ impl Item {
     pub fn centre(&self) -> [f32; 4] {
         [0, 1, 2, 3].map(|a| 0.5 * self.lo[a] + 0.5 * self.hi[a])
     }
-
-    /// Its box.
-    #[inline(always)]
-    pub fn bounds(&self) -> Bounds {
-        Bounds { lo: [self.lo[0], self.lo[1], self.lo[2]], hi: [self.hi[0], self.hi[1], self.hi[2]] }
-    }
 }
 
 /// The smallest box around `items`.

@@ -1,6 +1,8 @@
 //! The tree builder: binned surface-area splits of objects down to single primitives, then the cheapest way to hang
 //! them into eight-wide nodes. The result does not depend on the number of threads.
 
+#![allow(clippy::needless_range_loop, reason = "an axis or a lane is the same place in several arrays")]
+
 mod binary;
 mod collapse;
 mod emit;
@@ -101,6 +103,3 @@ impl Measure {
         area * self.per_unit * self.per_unit
     }
 }
-
-#[cfg(test)]
-mod tests;

@@ -35,7 +35,10 @@ impl Pool<'_> {
 /// Inside [`Pool::run`]: splits work in two.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Workers {
-    #[cfg_attr(not(feature = "threads"), allow(dead_code, reason = "without threads there is nobody to ask"))]
+    #[cfg_attr(
+        not(feature = "threads"),
+        allow(dead_code, reason = "without threads there is nobody to ask")
+    )]
     many: bool,
 }
 

@@ -164,7 +164,12 @@ impl Bins {
 }
 
 /// Puts the primitives whose bin on `axis` is below `bin` first; how many there are, and the two sides.
-pub(crate) fn partition(items: &mut [Item], binning: &Binning, axis: usize, bin: usize) -> (usize, Side, Side) {
+pub(crate) fn partition(
+    items: &mut [Item],
+    binning: &Binning,
+    axis: usize,
+    bin: usize,
+) -> (usize, Side, Side) {
     let mut grown = [(Grow::EMPTY, Grow::EMPTY); 2];
     let (mut left, mut right) = (0, items.len());
     while left < right {

@@ -1,9 +1,11 @@
 //! What a tree is in memory: nodes of eight boxes, leaf blocks of up to eight primitives.
 
+#![allow(clippy::needless_range_loop, reason = "an axis or a lane is the same place in several arrays")]
+
 mod node;
 mod triangles;
 
-pub(crate) use node::{Child, Node, WIDTH};
+pub(crate) use node::{Child, Node, WIDTH, above, below};
 pub(crate) use triangles::TriangleBlock;
 
 use crate::NO_PRIM;
@@ -15,7 +17,7 @@ pub(crate) const MAX_DEPTH: usize = 80;
 pub(crate) type LeafIds = [u32; WIDTH];
 
 /// A tree over numbered primitives. The root is node 0; without primitives there is no node.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Tree {
     /// Nodes, parents before children.
     pub nodes: Vec<Node>,

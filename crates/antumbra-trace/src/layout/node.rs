@@ -39,7 +39,7 @@ impl Child {
 
 /// Eight boxes and where they lead, 256 bytes in four cache lines. Boxes come padded (LAW §3); unused lanes hold an
 /// empty box. Children stand in the order in which an any-hit query visits them.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C, align(64))]
 pub(crate) struct Node {
     /// Planes: lower x, y, z, then upper x, y, z; one lane a child.
@@ -72,6 +72,11 @@ impl Node {
             self.planes[axis + 3][lane] = above(f64::from(bounds.hi[axis]) + pad);
         }
         self.child[lane] = child;
+    }
+
+    /// How many children there are.
+    pub fn count(&self) -> usize {
+        self.child.iter().filter(|&&c| c != Child::NONE).count()
     }
 }
 

@@ -1,0 +1,149 @@
+//! Through the boxes in f32: eight at once, conservative (LAW §3).
+
+use std::mem::MaybeUninit;
+
+use fearless_simd::{Simd, f32x8, prelude::*};
+
+use super::ray::{BoxRay, FastLine};
+use crate::layout::{Child, MAX_DEPTH, Node, WIDTH};
+
+/// 1 + 2⁻²⁰: how much a far plane is moved away.
+const FAR_SLACK: f32 = 1.0 + 1.0 / 1_048_576.0;
+
+/// What is done at a leaf block.
+pub(crate) trait Visit<S: Simd> {
+    /// Something in leaf block `leaf` blocks the line.
+    fn any(&mut self, simd: S, leaf: usize) -> bool;
+    /// Looks for closer hits in leaf block `leaf`; the largest t that still matters.
+    fn nearest(&mut self, simd: S, leaf: usize) -> f32;
+}
+
+/// Which of the eight boxes the line meets before `tmax`, and where it enters them.
+///
+/// Pass iff tnear ≤ (1 + 2⁻²⁰) min(tfar, tmax). Where a level has no fused multiply-add, p·r is rounded: the same as
+/// moving the plane by 2⁻²⁴ M; with the moves of o by its own rounding (instances) and that of o·r it makes three of
+/// the four such units that the pad has.
+#[inline(always)]
+fn meet<S: Simd>(simd: S, node: &Node, ray: &BoxRay<S>, tmax: f32x8<S>) -> (u32, f32x8<S>) {
+    let [nx, ny, nz] = ray.near;
+    let plane = |row: usize| f32x8::load_array_ref(simd, &node.planes[row]);
+    let [fx, fy, fz] = ray.far;
+    let x0 = plane(nx).mul_add(ray.r[0], ray.or[0]);
+    let y0 = plane(ny).mul_add(ray.r[1], ray.or[1]);
+    let z0 = plane(nz).mul_add(ray.r[2], ray.or[2]);
+    let x1 = plane(fx).mul_add(ray.r[0], ray.or[0]);
+    let y1 = plane(fy).mul_add(ray.r[1], ray.or[1]);
+    let z1 = plane(fz).mul_add(ray.r[2], ray.or[2]);
+    let enter = x0.max(y0).max(z0.max(f32x8::splat(simd, 0.0)));
+    let leave = x1.min(y1).min(z1.min(tmax));
+    let pass = enter.simd_le(leave * FAR_SLACK);
+    (pass.to_bitmask() as u32, enter)
+}
+
+/// A stack that is not cleared. Holds at most `N` elements: the pushes are bounded by the depth of the tree.
+struct Stack<T: Copy, const N: usize> {
+    slots: [MaybeUninit<T>; N],
+    len: usize,
+}
+
+impl<T: Copy, const N: usize> Stack<T, N> {
+    #[inline(always)]
+    fn new() -> Stack<T, N> {
+        Stack { slots: [const { MaybeUninit::uninit() }; N], len: 0 }
+    }
+
+    #[inline(always)]
+    fn push(&mut self, value: T) {
+        // Bounds are checked here, so `len` ≤ N always.
+        self.slots[self.len] = MaybeUninit::new(value);
+        self.len += 1;
+    }
+
+    #[inline(always)]
+    fn pop(&mut self) -> Option<T> {
+        self.len = self.len.checked_sub(1)?;
+        // SAFETY: slots[0 .. len] were written by `push`: it alone raises `len`, by one, after writing slots[len];
+        // here `len` was lowered by one, so slots[len] is one of them. T is Copy: nothing is dropped twice.
+        Some(unsafe { self.slots[self.len].assume_init() })
+    }
+}
+
+/// Anything blocks the line between 0 and its tmax. Children are visited in their stored order.
+#[inline(always)]
+pub(crate) fn any_hit<S: Simd>(simd: S, nodes: &[Node], line: &FastLine, visit: &mut impl Visit<S>) -> bool {
+    let ray = BoxRay::new(simd, line);
+    let tmax = f32x8::splat(simd, line.tmax);
+    // One entry a level: a node and its children still to visit.
+    let mut stack = Stack::<(u32, u32), MAX_DEPTH>::new();
+    let mut at = 0;
+    let mut left = meet(simd, &nodes[0], &ray, tmax).0;
+    loop {
+        if left == 0 {
+            let Some((node, children)) = stack.pop() else { return false };
+            (at, left) = (node as usize, children);
+        }
+        let child = nodes[at].child[left.trailing_zeros() as usize % WIDTH];
+        left &= left - 1;
+        if child.is_leaf() {
+            if visit.any(simd, child.index()) {
+                return true;
+            }
+            continue;
+        }
+        if left != 0 {
+            stack.push((at as u32, left));
+        }
+        at = child.index();
+        left = meet(simd, &nodes[at], &ray, tmax).0;
+    }
+}
+
+/// Visits all that may hold the closest hit, nearer boxes first.
+#[inline(always)]
+pub(crate) fn nearest_hit<S: Simd>(simd: S, nodes: &[Node], line: &FastLine, visit: &mut impl Visit<S>) {
+    let ray = BoxRay::new(simd, line);
+    let mut tmax = line.tmax;
+    let mut stack = Stack::<(f32, Child), { MAX_DEPTH * (WIDTH - 1) + 1 }>::new();
+    let mut at = Child::node(0);
+    loop {
+        if at.is_leaf() {
+            tmax = visit.nearest(simd, at.index());
+        } else {
+            let node = &nodes[at.index()];
+            let (mut met, enter) = meet(simd, node, &ray, f32x8::splat(simd, tmax));
+            if met != 0 {
+                let enter = enter.to_array();
+                let first = stack.len;
+                while met != 0 {
+                    let lane = met.trailing_zeros() as usize % WIDTH;
+                    met &= met - 1;
+                    insert(&mut stack, first, (enter[lane], node.child[lane]));
+                }
+            }
+        }
+        loop {
+            let Some((enter, child)) = stack.pop() else { return };
+            if enter <= tmax * FAR_SLACK {
+                at = child;
+                break;
+            }
+        }
+    }
+}
+
+/// Keeps slots[first ..] sorted, nearest on top.
+#[inline(always)]
+fn insert<const N: usize>(stack: &mut Stack<(f32, Child), N>, first: usize, new: (f32, Child)) {
+    stack.push(new);
+    let mut i = stack.len - 1;
+    while i > first {
+        // SAFETY: first ≤ i − 1 < len, so the slot was written by `push` or by the line below.
+        let below = unsafe { stack.slots[i - 1].assume_init() };
+        if below.0 >= new.0 {
+            break;
+        }
+        stack.slots[i] = MaybeUninit::new(below);
+        stack.slots[i - 1] = MaybeUninit::new(new);
+        i -= 1;
+    }
+}

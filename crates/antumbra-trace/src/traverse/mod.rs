@@ -1,0 +1,20 @@
+//! Walking a tree: the f32 way of LAW §3 and §4 at every SIMD level, and the f64 way for lines outside its conditions.
+//!
+//! Nothing here decides a hit near its border: boxes and filters discard or confirm outside proven error bounds, and
+//! ask the law for the rest. So all ways give the same bits.
+
+mod ask;
+mod boxes;
+mod exact;
+mod filter;
+mod ray;
+mod shapes;
+mod triangles;
+mod vector;
+
+pub(crate) use ask::{Ask, Asking, Best, Masks, Opaque};
+pub(crate) use boxes::{Visit, any_hit, nearest_hit};
+pub(crate) use exact::{Count, ExactVisit, NotCounted, any_hit_exact, nearest_hit_exact};
+pub(crate) use ray::{FastLine, Limits};
+pub(crate) use shapes::{Numbered, ShapeTree, ShapeVisit};
+pub(crate) use triangles::{ExactTriangles, TriangleTree, TriangleVisit};
