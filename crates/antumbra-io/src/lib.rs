@@ -1,1 +1,17 @@
-//! Readers and writers.
+//! Readers (bytes → scene builder), writers and pictures. Floor 9.
+//!
+//! Inputs are untrusted: every count is held against the size of the file before anything is allocated, paths stay in
+//! the scene's folder, and what is wrong is a [`ReadError`], never a panic. Outputs appear whole or not at all.
+
+mod error;
+mod files;
+mod format;
+mod limits;
+pub mod picture;
+mod read;
+
+pub use error::{ReadError, WriteError};
+pub use files::{FileError, Files, FolderFiles, MemoryFiles};
+pub use format::{Format, READS, format_of};
+pub use limits::Limits;
+pub use read::{ReadOptions, UpAxis, read, read_path};

@@ -1,0 +1,123 @@
+//! OpenEXR: channels as planes of f32.
+
+use std::io::Cursor;
+
+use exr::prelude::{AttributeValue, MetaData, ReadChannels, ReadLayers, read};
+
+use crate::error::ReadError;
+use crate::limits::Limits;
+
+/// The channels of a picture, by name, and its text.
+pub(crate) struct Planes {
+    /// Columns.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+    /// Text attributes by name.
+    pub text: Vec<(String, String)>,
+    planes: Vec<(String, Vec<f32>)>,
+}
+
+impl Planes {
+    /// Takes one channel out.
+    pub(crate) fn take(&mut self, name: &str) -> Option<Vec<f32>> {
+        let at = self.planes.iter().position(|p| p.0 == name)?;
+        Some(self.planes.remove(at).1)
+    }
+
+    /// Takes the channel of a picture that has no other.
+    pub(crate) fn take_only(&mut self) -> Option<Vec<f32>> {
+        if self.planes.len() == 1 { self.planes.pop().map(|p| p.1) } else { None }
+    }
+
+    /// Takes the channels R, G and B behind a prefix out, if they are all there.
+    pub(crate) fn take_rgb(&mut self, prefix: &str) -> Option<Vec<[f32; 3]>> {
+        let names = ["R", "G", "B"].map(|c| format!("{prefix}{c}"));
+        if !names.iter().all(|n| self.planes.iter().any(|p| p.0 == *n)) {
+            return None;
+        }
+        let [r, g, b] = names.map(|n| self.take(&n).unwrap_or_default());
+        Some(r.iter().zip(&g).zip(&b).map(|((r, g), b)| [*r, *g, *b]).collect())
+    }
+
+    /// The name of a channel that is still there.
+    pub(crate) fn first_name(&self) -> Option<String> {
+        self.planes.first().map(|p| p.0.clone())
+    }
+}
+
+/// Every sample announced costs at least so many bytes: none of the compressions shrinks further than this.
+const SAMPLES_PER_BYTE: u64 = 4096;
+const BROKEN: &str = "The file is cut short, or its writer is wrong.";
+
+/// Holds the header against the limits and the size of the file, before anything is allocated.
+fn admit(bytes: &[u8], limits: &Limits) -> Result<(), ReadError> {
+    let broken = |e: exr::error::Error| ReadError::new("EXR header", words(&e)).hint(BROKEN);
+    let meta = MetaData::read_from_buffered(Cursor::new(bytes), false).map_err(broken)?;
+    let mut samples = 0u64;
+    for header in &meta.headers {
+        let (w, h) = (header.layer_size.width() as u64, header.layer_size.height() as u64);
+        let pixels = w.saturating_mul(h);
+        samples = samples.saturating_add(pixels.saturating_mul(header.channels.list.len() as u64));
+        let too_large = pixels > limits.pixels || samples.saturating_mul(4) > limits.texture_bytes;
+        if too_large || samples / SAMPLES_PER_BYTE > bytes.len() as u64 {
+            let channels = header.channels.list.len();
+            let what = format!("announces {w} × {h} pixels of {channels} channels in {} bytes", bytes.len());
+            return Err(ReadError::new("EXR header", what).hint(BROKEN));
+        }
+        if (header.chunk_count as u64).saturating_mul(8) > bytes.len() as u64 {
+            let what = format!("announces {} chunks in {} bytes", header.chunk_count, bytes.len());
+            return Err(ReadError::new("EXR header", what).hint(BROKEN));
+        }
+    }
+    Ok(())
+}
+
+/// All channels of all layers that have the size of the first one; those of a named layer as `layer.channel`.
+pub(crate) fn planes(bytes: &[u8], limits: &Limits) -> Result<Planes, ReadError> {
+    admit(bytes, limits)?;
+    let broken = |e: exr::error::Error| ReadError::new("EXR", words(&e)).hint(BROKEN);
+    let image = read()
+        .no_deep_data()
+        .largest_resolution_level()
+        .all_channels()
+        .all_layers()
+        .all_attributes()
+        .non_parallel()
+        .from_buffered(Cursor::new(bytes))
+        .map_err(broken)?;
+    let Some(first) = image.layer_data.first() else { return Err(ReadError::new("EXR", "it has no layer")) };
+    let size = first.size;
+    let mut planes =
+        Planes { width: size.width() as u32, height: size.height() as u32, text: Vec::new(), planes: Vec::new() };
+    for layer in image.layer_data.iter().filter(|l| l.size == size) {
+        let prefix = layer.attributes.layer_name.as_ref().map_or(String::new(), |n| format!("{n}."));
+        for (name, value) in &layer.attributes.other {
+            if let AttributeValue::Text(text) = value {
+                planes.text.push((name.to_string(), text.to_string()));
+            }
+        }
+        for channel in &layer.channel_data.list {
+            let values = channel.sample_data.values_as_f32().collect();
+            // A single named layer is what many programs write for a plain picture.
+            let alone = image.layer_data.len() == 1;
+            let prefix = if alone { "" } else { prefix.as_str() };
+            planes.planes.push((format!("{prefix}{}", channel.name), values));
+        }
+    }
+    planes.text.sort();
+    planes.text.dedup();
+    Ok(planes)
+}
+
+/// The library's words in one line.
+fn words(e: &exr::error::Error) -> String {
+    use exr::error::Error as E;
+    match e {
+        E::Aborted => "it was interrupted".into(),
+        E::NotSupported(what) => format!("{what} is not read"),
+        E::Invalid(what) => format!("it is broken: {what}"),
+        E::Io(io) if io.kind() == std::io::ErrorKind::UnexpectedEof => "it ends too early".into(),
+        E::Io(io) => format!("it is broken: {io}"),
+    }
+}

@@ -1,0 +1,127 @@
+//! glTF 2.0 and GLB.
+
+mod accessor;
+mod buffers;
+mod camera;
+mod container;
+mod document;
+mod extensions;
+mod light;
+mod material;
+mod mesh;
+mod node;
+mod texture;
+
+use antumbra::scene::{Level, SceneBuilder};
+
+use accessor::Accessors;
+use document::{Asset, Document};
+
+use super::{Context, Counted};
+use crate::error::ReadError;
+
+/// The work in progress: the document, what is built from it, and what was said.
+struct Reader<'a> {
+    doc: &'a Document,
+    accessors: Accessors<'a>,
+    context: &'a Context<'a>,
+    scene: SceneBuilder,
+    said: Counted,
+    materials: material::Materials,
+    meshes: mesh::Meshes,
+}
+
+/// Reads a `.gltf` or `.glb`.
+pub(super) fn read(bytes: &[u8], context: &Context) -> Result<SceneBuilder, ReadError> {
+    let container = container::open(bytes, context.named_glb)?;
+    let doc = parse(container.json)?;
+    let mut said = Counted::default();
+    if container.trailing > 0 {
+        let what = format!("{} bytes after its announced length are not read", container.trailing);
+        said.warn("GLB header", what);
+    }
+    extensions::check(&doc, &mut said)?;
+    let buffers = buffers::load(&doc, container.bin, context)?;
+    let mut reader = Reader {
+        doc: &doc,
+        accessors: Accessors { doc: &doc, buffers: &buffers, context },
+        context,
+        scene: SceneBuilder { source: source(&doc.asset), ..SceneBuilder::default() },
+        said,
+        materials: material::Materials::default(),
+        meshes: mesh::Meshes::default(),
+    };
+    for placed in node::walk(&doc, &context.root, &mut reader.said)? {
+        reader.place(&placed)?;
+    }
+    reader.finish()
+}
+
+impl Reader<'_> {
+    /// Everything that hangs at a node.
+    fn place(&mut self, at: &node::Placed) -> Result<(), ReadError> {
+        let node = &self.doc.nodes[at.node];
+        if let Some(mesh) = node.mesh {
+            self.place_mesh(at, mesh)?;
+        }
+        if let Some(camera) = node.camera {
+            self.place_camera(at, camera)?;
+        }
+        self.place_light(at)
+    }
+
+    fn finish(mut self) -> Result<SceneBuilder, ReadError> {
+        if !self.meshes.announced() {
+            let what = "there is nothing to render: no mesh with triangles in the scene";
+            return Err(ReadError::new("", what).hint("Check that the right scene was exported."));
+        }
+        let still = [(!self.doc.animations.is_empty(), "animations"), (self.meshes.skinned, "skins")];
+        let still: Vec<_> = still.iter().filter(|s| s.0).map(|s| s.1).collect();
+        if !still.is_empty() {
+            let text = format!("{} stand still: the scene is drawn as its nodes stand", still.join(" and "));
+            self.scene.say(Level::Note, "", text);
+        }
+        self.scene.sky_if_unlit = true;
+        self.said.into_scene(&mut self.scene);
+        Ok(self.scene)
+    }
+}
+
+/// What the file says of itself.
+fn source(asset: &Asset) -> String {
+    let version = if asset.version.is_empty() { "2.0" } else { &asset.version };
+    match asset.generator.as_str() {
+        "" => format!("glTF {version}"),
+        generator => format!("glTF {version}, {generator}"),
+    }
+}
+
+fn parse(json: &[u8]) -> Result<Document, ReadError> {
+    #[derive(Default, serde::Deserialize)]
+    #[serde(default)]
+    struct Head {
+        asset: Asset,
+    }
+    let parsed = serde_json::from_slice::<Document>(json);
+    // Version 1 has other shapes of everything: it is told apart before anything else is said about it.
+    let head = match &parsed {
+        Ok(doc) => Some((doc.asset.version.clone(), doc.asset.min_version.clone())),
+        Err(_) => {
+            serde_json::from_slice::<Head>(json).ok().map(|h| (h.asset.version, h.asset.min_version))
+        }
+    };
+    if let Some((version, min)) = head {
+        let old = !version.is_empty() && !version.starts_with("2.");
+        if old || min.as_ref().is_some_and(|m| m != "2.0") {
+            let version = if old { version } else { min.unwrap_or_default() };
+            let what = format!("this is glTF {version}; glTF 2.0 is read");
+            return Err(ReadError::new("asset", what).hint("Export the scene as glTF 2.0."));
+        }
+    }
+    parsed.map_err(|e| {
+        let text = e.to_string();
+        let what = text.rsplit_once(" at line ").map_or(text.as_str(), |t| t.0);
+        let place = format!("JSON line {} column {}", e.line(), e.column());
+        ReadError::new(place, what).hint("`npx gltf-validator` says more about such a file.")
+    })
+}

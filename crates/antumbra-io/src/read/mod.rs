@@ -1,0 +1,169 @@
+//! Readers: bytes → scene builder. One file or folder per format; to add one, add its line to [`read`] and to
+//! `format.rs`.
+
+pub(crate) mod exr;
+mod gltf;
+mod texels;
+mod uri;
+
+use std::path::{Path, PathBuf};
+
+use antumbra::scene::{Level, Message, SceneBuilder};
+use antumbra_math::{DMat3, DVec3, Transform};
+
+use crate::error::ReadError;
+use crate::files::{Files, FolderFiles, read_limited};
+use crate::format::{Format, READS, format_of};
+use crate::limits::{Allowance, Limits};
+
+/// What every reader gets besides the bytes.
+pub(crate) struct Context<'a> {
+    /// The files beside.
+    pub files: &'a dyn Files,
+    /// What may be asked for.
+    pub limits: &'a Limits,
+    /// File → world: turns z up to y up where the person asks for it.
+    pub root: Transform,
+    /// The file's name ends in `.glb` (for the words of an error).
+    pub named_glb: bool,
+    /// Decoded pictures.
+    pub textures: Allowance,
+    memory: Allowance,
+}
+
+impl Context<'_> {
+    /// Takes room for `count` items of `size` bytes.
+    pub(crate) fn take(&self, count: u64, size: u64) -> Result<(), String> {
+        self.memory.take(count, size)
+    }
+
+    /// More input came: `bytes` of it.
+    pub(crate) fn grant(&self, bytes: u64) {
+        self.memory.grant(bytes.saturating_mul(self.limits.expansion));
+    }
+}
+
+/// Which axis of a file points up.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum UpAxis {
+    /// y: coordinates stay as they are.
+    #[default]
+    Y,
+    /// z: (x, y, z) becomes (x, z, −y).
+    Z,
+}
+
+impl UpAxis {
+    /// File → world.
+    fn transform(self) -> Transform {
+        match self {
+            UpAxis::Y => Transform::IDENTITY,
+            UpAxis::Z => Transform {
+                linear: DMat3::from_cols(DVec3::X, DVec3::NEG_Z, DVec3::Y),
+                translation: DVec3::ZERO,
+            },
+        }
+    }
+}
+
+/// How a file is read from disk.
+#[derive(Clone, Debug, Default)]
+pub struct ReadOptions {
+    /// The root that the paths of a scene may reach; its own folder if there is none.
+    pub files_from: Option<PathBuf>,
+    /// Which axis points up.
+    pub up_axis: UpAxis,
+    /// What may be asked for.
+    pub limits: Limits,
+}
+
+/// Reads a scene of a known format from memory.
+pub fn read(
+    format: Format,
+    bytes: &[u8],
+    files: &dyn Files,
+    limits: &Limits,
+) -> Result<SceneBuilder, ReadError> {
+    read_as(format, bytes, &context(files, limits, UpAxis::Y, bytes.len(), false))
+}
+
+fn context<'a>(
+    files: &'a dyn Files,
+    limits: &'a Limits,
+    up: UpAxis,
+    length: usize,
+    named_glb: bool,
+) -> Context<'a> {
+    let context = Context {
+        files,
+        limits,
+        root: up.transform(),
+        named_glb,
+        textures: Allowance::new(limits.texture_bytes),
+        memory: Allowance::new(limits.expansion_base),
+    };
+    context.grant(length as u64);
+    context
+}
+
+fn read_as(format: Format, bytes: &[u8], context: &Context) -> Result<SceneBuilder, ReadError> {
+    match format {
+        Format::Gltf => gltf::read(bytes, context),
+        Format::NotRead(name) => {
+            Err(ReadError::new("", format!("{name} is not read yet")).hint(format!("antumbra reads {READS}.")))
+        }
+        _ => Err(ReadError::new("", "not read yet")),
+    }
+}
+
+/// Reads a scene from disk; the only reader that touches a file system.
+pub fn read_path(path: &Path, options: &ReadOptions) -> Result<SceneBuilder, ReadError> {
+    let name = path.display().to_string();
+    read_file(path, options).map_err(|e| e.of(name))
+}
+
+fn read_file(path: &Path, options: &ReadOptions) -> Result<SceneBuilder, ReadError> {
+    let limits = &options.limits;
+    let unreadable = |why: String| ReadError::new("", format!("cannot be read ({why})"));
+    let bytes = read_limited(path, limits.file_bytes).map_err(unreadable)?;
+    let Some(format) = format_of(path, &bytes) else {
+        let what = "its format is not known: neither its name nor its first bytes tell it";
+        return Err(ReadError::new("", what).hint(format!("antumbra reads {READS}.")));
+    };
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let root = options.files_from.as_deref().unwrap_or(folder);
+    let files = FolderFiles::new(root, folder, limits).map_err(|e| {
+        let what = format!("the folder {} of its files: {e}", root.display());
+        ReadError::new("", what)
+    })?;
+    let named_glb = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("glb"));
+    let context = context(&files, limits, options.up_axis, bytes.len(), named_glb);
+    let mut scene = read_as(format, &bytes, &context)?;
+    scene.name = path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
+    Ok(scene)
+}
+
+/// Messages that are counted and said once.
+#[derive(Default)]
+pub(crate) struct Counted(Vec<(Message, usize)>);
+
+impl Counted {
+    /// Says `text` about `place`; the same text again only counts.
+    pub(crate) fn warn(&mut self, place: impl Into<String>, text: impl Into<String>) {
+        let text = text.into();
+        match self.0.iter_mut().find(|(m, _)| m.text == text) {
+            Some((_, n)) => *n += 1,
+            None => self.0.push((Message { level: Level::Warning, place: place.into(), text }, 1)),
+        }
+    }
+
+    /// Puts what was said into the scene.
+    pub(crate) fn into_scene(self, scene: &mut SceneBuilder) {
+        for (mut message, n) in self.0 {
+            if n > 1 {
+                message.text.push_str(&format!(" (and {} more like it)", n - 1));
+            }
+            scene.messages.push(message);
+        }
+    }
+}
