@@ -53,7 +53,9 @@ impl Allowance {
                 self.0.set(left);
                 Ok(())
             }
-            None => Err(format!("{count} items of {size} bytes are out of proportion to the size of the file")),
+            None => {
+                Err(format!("{count} items of {size} bytes are out of proportion to the size of the file"))
+            }
         }
     }
 

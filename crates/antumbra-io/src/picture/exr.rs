@@ -68,7 +68,9 @@ fn samples(values: impl Iterator<Item = f32>, precision: Precision) -> FlatSampl
         // Clipped, since an infinite pixel would spoil every mean taken of the picture.
         Precision::Half => {
             let max = f16::MAX.to_f32();
-            FlatSamples::F16(values.map(|v| f16::from_f32(if v.is_finite() { v.clamp(-max, max) } else { v })).collect())
+            FlatSamples::F16(
+                values.map(|v| f16::from_f32(if v.is_finite() { v.clamp(-max, max) } else { v })).collect(),
+            )
         }
     }
 }

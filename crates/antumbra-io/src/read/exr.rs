@@ -88,13 +88,17 @@ pub(crate) fn planes(bytes: &[u8], limits: &Limits) -> Result<Planes, ReadError>
         .map_err(broken)?;
     let Some(first) = image.layer_data.first() else { return Err(ReadError::new("EXR", "it has no layer")) };
     let size = first.size;
-    let mut planes =
-        Planes { width: size.width() as u32, height: size.height() as u32, text: Vec::new(), planes: Vec::new() };
+    let mut planes = Planes {
+        width: size.width() as u32,
+        height: size.height() as u32,
+        text: Vec::new(),
+        planes: Vec::new(),
+    };
     for layer in image.layer_data.iter().filter(|l| l.size == size) {
         let prefix = layer.attributes.layer_name.as_ref().map_or(String::new(), |n| format!("{n}."));
         for (name, value) in &layer.attributes.other {
             if let AttributeValue::Text(text) = value {
-                planes.text.push((name.to_string(), text.to_string()));
+                planes.text.push((utf8(name), utf8(text)));
             }
         }
         for channel in &layer.channel_data.list {
@@ -108,6 +112,11 @@ pub(crate) fn planes(bytes: &[u8], limits: &Limits) -> Result<Planes, ReadError>
     planes.text.sort();
     planes.text.dedup();
     Ok(planes)
+}
+
+/// Text is written as UTF-8.
+fn utf8(text: &exr::prelude::Text) -> String {
+    String::from_utf8_lossy(text.as_slice()).into_owned()
 }
 
 /// The library's words in one line.

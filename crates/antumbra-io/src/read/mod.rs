@@ -110,7 +110,8 @@ fn read_as(format: Format, bytes: &[u8], context: &Context) -> Result<SceneBuild
     match format {
         Format::Gltf => gltf::read(bytes, context),
         Format::NotRead(name) => {
-            Err(ReadError::new("", format!("{name} is not read yet")).hint(format!("antumbra reads {READS}.")))
+            Err(ReadError::new("", format!("{name} is not read yet"))
+                .hint(format!("antumbra reads {READS}.")))
         }
         _ => Err(ReadError::new("", "not read yet")),
     }

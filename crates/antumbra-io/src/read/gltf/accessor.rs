@@ -9,6 +9,7 @@ use bytemuck::Pod;
 
 use super::buffers::Buffers;
 use super::document::{Accessor, Document, Sparse};
+use super::extensions::{MESHOPT, advice};
 use crate::error::ReadError;
 use crate::read::Context;
 
@@ -145,7 +146,12 @@ impl<'a> Accessors<'a> {
             return Err(fail(format!("has type {}; {wanted} numbers an element are needed", a.kind)));
         }
         let size = component * lanes;
-        let too_much = |what: String| fail(what).hint("The file is cut short, or its exporter is wrong.");
+        let too_much = |what: String| {
+            let packed = what.contains(MESHOPT[0]);
+            let hint =
+                if packed { advice(MESHOPT[0]) } else { "The file is cut short, or its exporter is wrong." };
+            fail(what).hint(hint)
+        };
         let (bytes, stride) = match a.buffer_view {
             Some(view) => self.slice(view, a.byte_offset, a.count, size).map_err(too_much)?,
             None => (&[] as &[u8], size),
@@ -177,10 +183,15 @@ impl<'a> Accessors<'a> {
             n => (n - 1).checked_mul(stride).and_then(|s| s.checked_add(size as u64)?.checked_add(offset)),
         };
         match end {
-            Some(end) if end <= bytes.len() as u64 => Ok((&bytes[offset as usize..end as usize], stride as usize)),
+            Some(end) if end <= bytes.len() as u64 => {
+                Ok((&bytes[offset as usize..end as usize], stride as usize))
+            }
             Some(end) => {
                 let length = bytes.len();
-                Err(format!("reads bytes {offset}…{} of a buffer view that has {length}", end.saturating_sub(1)))
+                Err(format!(
+                    "reads bytes {offset}…{} of a buffer view that has {length}",
+                    end.saturating_sub(1)
+                ))
             }
             None => Err(format!("has {count} elements at offset {offset}: beyond any file")),
         }
@@ -196,7 +207,7 @@ impl<'a> Accessors<'a> {
             .get(v.buffer)
             .ok_or_else(|| format!("buffer view {view} names buffer {}; there are {n}", v.buffer))?;
         let Some(buffer) = buffer else {
-            return Err("is compressed with EXT_meshopt_compression, and the file brings no fallback".into());
+            return Err(format!("is compressed with {}, and the file brings no fallback", MESHOPT[0]));
         };
         let end = v.byte_offset.checked_add(v.byte_length).filter(|end| *end <= buffer.len() as u64);
         end.map(|end| &buffer[v.byte_offset as usize..end as usize]).ok_or_else(|| {

@@ -33,7 +33,9 @@ pub(super) fn load<'a>(
         };
         if (bytes.len() as u64) < buffer.byte_length {
             let what = format!("announces {} bytes, it has {}", buffer.byte_length, bytes.len());
-            return Err(ReadError::new(place(), what).hint("The file is cut short, or its exporter is wrong."));
+            return Err(
+                ReadError::new(place(), what).hint("The file is cut short, or its exporter is wrong.")
+            );
         }
         buffers.push(Some(bytes));
     }

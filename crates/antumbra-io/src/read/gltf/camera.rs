@@ -5,6 +5,7 @@ use antumbra_math::real;
 
 use super::Reader;
 use super::document::GltfCamera;
+use super::material::named;
 use super::node::Placed;
 use crate::error::ReadError;
 
@@ -22,7 +23,9 @@ impl Reader<'_> {
                 let seen = Camera::of_node(&at.world, projection);
                 self.scene.cameras.push(Camera { name: name.clone(), aspect, ..seen });
             }
-            Err(what) => self.said.warn(format!("camera {index} \"{name}\""), format!("{what}: left out")),
+            Err(what) => {
+                self.said.warn(format!("camera {}", named(index, name)), format!("{what}: left out"))
+            }
         }
         Ok(())
     }
@@ -37,7 +40,9 @@ fn projection(camera: &GltfCamera) -> Result<(Projection, Option<f64>), String> 
         }
         return Ok((Projection::Perspective { vertical_fov: fov }, p.aspect_ratio.filter(|a| *a > 0.0)));
     }
-    let Some(o) = &camera.orthographic else { return Err("it is neither perspective nor orthographic".into()) };
+    let Some(o) = &camera.orthographic else {
+        return Err("it is neither perspective nor orthographic".into());
+    };
     let (x, y) = (o.xmag.abs(), o.ymag.abs());
     if y == 0.0 {
         return Err("ymag is 0".into());

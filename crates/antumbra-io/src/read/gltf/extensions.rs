@@ -22,8 +22,13 @@ const READ: &[&str] = &[
 ];
 
 /// They carry nothing that light would meet.
-const NOTHING_TO_SEE: &[&str] =
-    &["KHR_xmp", "KHR_xmp_json_ld", "KHR_materials_variants", "KHR_animation_pointer", "KHR_node_hoverability"];
+const NOTHING_TO_SEE: &[&str] = &[
+    "KHR_xmp",
+    "KHR_xmp_json_ld",
+    "KHR_materials_variants",
+    "KHR_animation_pointer",
+    "KHR_node_hoverability",
+];
 
 /// They touch pictures and lights of a kind that can be left out.
 const LOOKS: &[&str] = &[

@@ -29,8 +29,12 @@ impl Reader<'_> {
         let light = PunctualLight::deserialize(value)
             .map_err(|e| ReadError::new(format!("{NAME} light {index}"), e.to_string()))?;
         let name = if node.name.is_empty() { &light.name } else { &node.name };
+        let place = format!("light {}", named(index, name));
+        if light.kind == "point" && light.range.is_some() {
+            self.said.warn(&place, "the range of point lights is not read: it shines on beyond");
+        }
         if let Err(what) = self.add_light(at, name, &light) {
-            self.said.warn(format!("light {}", named(index, &light.name)), format!("{what}: left out"));
+            self.said.warn(place, format!("{what}: left out"));
         }
         Ok(())
     }
@@ -48,12 +52,7 @@ impl Reader<'_> {
             return Err("its node has a singular transform".into());
         }
         match light.kind.as_str() {
-            "point" => {
-                if light.range.is_some() {
-                    self.said.warn(format!("light \"{name}\""), "the range of point lights is not read: it reaches on");
-                }
-                self.scene.light(name, Point { position, intensity: color });
-            }
+            "point" => self.scene.light(name, Point { position, intensity: color }),
             "spot" => {
                 let (inner, outer) = cone(&light.spot)?;
                 let range = light.range.filter(|r| *r > 0.0);

@@ -104,7 +104,7 @@ impl Reader<'_> {
         if let Some(info) = &m.emissive_texture
             && let Some(image) = self.image_of(info, true)
         {
-            radiance = radiance * image.mean();
+            radiance *= image.mean();
             let text = "its emissiveTexture is not read texel by texel: it emits the mean colour evenly";
             self.said.warn(place, text);
         }

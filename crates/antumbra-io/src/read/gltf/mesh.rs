@@ -59,11 +59,13 @@ impl Reader<'_> {
         let weights = node.weights.as_ref().unwrap_or(&mesh.weights);
         let places = self.instances(at)?;
         for primitive in &mesh.primitives {
+            let place = format!("mesh {}", named(index, &mesh.name));
             let told = |e: ReadError| {
-                let place = format!("mesh {}", named(index, &mesh.name));
-                ReadError { place: if e.place.is_empty() { place } else { format!("{} of {place}", e.place) }, ..e }
+                let place =
+                    if e.place.is_empty() { place.clone() } else { format!("{} of {place}", e.place) };
+                ReadError { place, ..e }
             };
-            let Some(id) = self.mesh(primitive, weights, &mesh.name).map_err(told)? else { continue };
+            let Some(id) = self.mesh(primitive, weights, &mesh.name, &place).map_err(told)? else { continue };
             let material = self.material(primitive.material);
             self.context.take(places.len() as u64, OBJECT).map_err(|e| told(ReadError::new("", e)))?;
             for place in &places {
@@ -107,14 +109,19 @@ impl Reader<'_> {
     }
 
     /// The mesh of a primitive; `None` if it has no triangles.
-    fn mesh(&mut self, p: &Primitive, weights: &[f32], name: &str) -> Result<Option<MeshId>, ReadError> {
+    fn mesh(
+        &mut self,
+        p: &Primitive,
+        weights: &[f32],
+        name: &str,
+        place: &str,
+    ) -> Result<Option<MeshId>, ReadError> {
         let mode = p.mode.unwrap_or(TRIANGLES);
         if mode > FAN {
             return Err(ReadError::new("", format!("a primitive has the unknown mode {mode}")));
         }
-        let place = || format!("mesh \"{name}\"");
         if mode < TRIANGLES {
-            self.said.warn(place(), "points and lines are not drawn");
+            self.said.warn(place, "points and lines are not drawn");
             return Ok(None);
         }
         self.meshes.triangles_met = true;
@@ -125,16 +132,21 @@ impl Reader<'_> {
         if let Some(known) = self.meshes.done.get(&key) {
             return Ok(*known);
         }
-        let mesh = self.build(p, &key, name)?;
+        let mesh = self.build(p, &key, name, place)?;
         let id = mesh.map(|m| self.scene.mesh(m));
         self.meshes.done.insert(key, id);
         Ok(id)
     }
 
-    fn build(&mut self, p: &Primitive, key: &Key, name: &str) -> Result<Option<Mesh>, ReadError> {
-        let place = || format!("mesh \"{name}\"");
+    fn build(
+        &mut self,
+        p: &Primitive,
+        key: &Key,
+        name: &str,
+        place: &str,
+    ) -> Result<Option<Mesh>, ReadError> {
         let Some(&position) = p.attributes.get("POSITION") else {
-            self.said.warn(place(), "a primitive has no positions: left out");
+            self.said.warn(place, "a primitive has no positions: left out");
             return Ok(None);
         };
         if p.extensions.contains_key(DRACO) && !self.accessors.is_backed(position) {
@@ -145,7 +157,7 @@ impl Reader<'_> {
         let n = vertices.len();
         let indices = self.triangles(p, key.mode, n)?;
         if indices.is_empty() {
-            self.said.warn(place(), "a primitive has no triangles: left out");
+            self.said.warn(place, "a primitive has no triangles: left out");
             return Ok(None);
         }
         let mut normals = self.attribute(p, "NORMAL", n, |r, i| r.accessors.floats::<3>(i))?;
@@ -211,7 +223,10 @@ impl Reader<'_> {
             return Ok(assemble(mode, n as usize, |i| i as u32));
         };
         if !p.attributes.is_empty() && mode == TRIANGLES && self.accessors.count(index)? % 3 != 0 {
-            self.said.warn(format!("accessor {index}"), "the indices do not make whole triangles: the rest is left");
+            self.said.warn(
+                format!("accessor {index}"),
+                "the indices do not make whole triangles: the rest is left",
+            );
         }
         let flat = self.accessors.integers::<1>(index).map_err(|e| of(e, "indices"))?;
         let largest = flat.iter().fold(0, |m, i| m.max(i[0]));

@@ -106,9 +106,7 @@ fn parse(json: &[u8]) -> Result<Document, ReadError> {
     // Version 1 has other shapes of everything: it is told apart before anything else is said about it.
     let head = match &parsed {
         Ok(doc) => Some((doc.asset.version.clone(), doc.asset.min_version.clone())),
-        Err(_) => {
-            serde_json::from_slice::<Head>(json).ok().map(|h| (h.asset.version, h.asset.min_version))
-        }
+        Err(_) => serde_json::from_slice::<Head>(json).ok().map(|h| (h.asset.version, h.asset.min_version)),
     };
     if let Some((version, min)) = head {
         let old = !version.is_empty() && !version.starts_with("2.");

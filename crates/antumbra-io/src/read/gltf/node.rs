@@ -72,7 +72,10 @@ fn roots(doc: &Document) -> Result<Vec<usize>, ReadError> {
         return Ok(scene.nodes.clone());
     }
     if doc.scene.is_some() {
-        return Err(ReadError::new("scene", format!("scene {index} is named; there are {}", doc.scenes.len())));
+        return Err(ReadError::new(
+            "scene",
+            format!("scene {index} is named; there are {}", doc.scenes.len()),
+        ));
     }
     let mut is_child = vec![false; doc.nodes.len()];
     for child in doc.nodes.iter().flat_map(|n| &n.children) {
