@@ -7,9 +7,9 @@ mod frame;
 pub mod hash;
 pub mod real;
 mod rgb;
-pub mod stats;
 pub mod solid_angle;
 pub mod spherical;
+pub mod stats;
 mod transform;
 pub mod warp;
 

@@ -88,8 +88,9 @@ impl SegmentBuffer {
         self.push(p, d, reach, first, NO_PRIM, number);
     }
 
+    /// Any entry; see [`Segments`] for the meaning of each number.
     #[inline]
-    fn push(&mut self, p: [f32; 3], end: [f32; 3], reach: f32, first: PrimId, last: PrimId, number: u32) {
+    pub fn push(&mut self, p: [f32; 3], end: [f32; 3], reach: f32, first: PrimId, last: PrimId, number: u32) {
         for axis in 0..3 {
             self.origin[axis].push(p[axis]);
             self.end[axis].push(end[axis]);

@@ -8,12 +8,25 @@
 // Floor 2
 pub mod bsdf;
 pub mod density;
+pub mod film;
 pub mod receiver;
+pub mod sampler;
 pub mod texture;
 // Floor 3
 pub mod light;
 // Floor 4
 pub mod scene;
+// Floor 5
+pub mod estimator;
+pub mod sensor;
+// Floor 6
+pub mod illuminate;
+pub mod settings;
+// Floor 7
+pub mod schedule;
+// Floor 8
+pub mod query;
+pub mod render;
 
 pub use antumbra_math as math;
 pub use antumbra_trace as trace;

@@ -35,6 +35,7 @@ impl LightKind for Directional {
             radiance: self.irradiance,
             density: Density::Delta,
             prim: NO_PRIM,
+            cos: 1.0,
         })
     }
 

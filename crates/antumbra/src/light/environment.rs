@@ -83,6 +83,7 @@ fn arrive(wi: World, radiance: Rgb, pdf: f32) -> Option<LightSample> {
         radiance,
         density: Density::SolidAngle(pdf),
         prim: NO_PRIM,
+        cos: 1.0,
     })
 }
 

@@ -45,6 +45,7 @@ impl Front {
             radiance: self.radiance,
             density: Density::SolidAngle(pdf),
             prim,
+            cos: cos.abs() as f32,
         })
     }
 

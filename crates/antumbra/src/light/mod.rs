@@ -72,6 +72,8 @@ pub struct LightSample {
     pub density: Density,
     /// The primitive that p′ lies on, or `NO_PRIM`.
     pub prim: PrimId,
+    /// |cos θ′| at p′; 1 for lights without a surface.
+    pub cos: f32,
 }
 
 /// The light met along a direction.

@@ -33,6 +33,7 @@ impl LightKind for Point {
             radiance: self.intensity / distance2,
             density: Density::Delta,
             prim: NO_PRIM,
+            cos: 1.0,
         })
     }
 

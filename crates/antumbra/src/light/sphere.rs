@@ -50,6 +50,7 @@ impl Sphere {
             radiance: self.radiance,
             density: Density::SolidAngle(pdf),
             prim: self.prim,
+            cos: n.dot(-wi).abs() as f32,
         })
     }
 }

@@ -79,6 +79,7 @@ impl LightKind for Spot {
             radiance,
             density: Density::Delta,
             prim: NO_PRIM,
+            cos: 1.0,
         })
     }
 

@@ -51,6 +51,7 @@ impl LightKind for Sun {
             radiance: self.radiance,
             density: Density::SolidAngle((1.0 / solid_angle::cone(versin)) as f32),
             prim: NO_PRIM,
+            cos: 1.0,
         })
     }
 

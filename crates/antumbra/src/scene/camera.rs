@@ -68,4 +68,34 @@ impl Camera {
     pub fn sized(self, width: u32, height: u32) -> Camera {
         Camera { size: Some([width, height]), ..self }
     }
+
+    /// Why it cannot look, if it cannot.
+    pub fn fault(&self) -> Option<String> {
+        let finite = self.eye.is_finite() && self.look_at.is_finite() && self.up.is_finite();
+        let forward = (self.look_at - self.eye).normalize_or_zero();
+        if !finite || forward == DVec3::ZERO || forward.cross(self.up).length() < 1e-9 * self.up.length() {
+            return Some("eye, look-at and up do not span a view".into());
+        }
+        match self.projection {
+            Projection::Perspective { vertical_fov }
+                if !(vertical_fov > 0.0 && vertical_fov < std::f64::consts::PI) =>
+            {
+                Some(format!("vertical angle of view {}°", vertical_fov.to_degrees()))
+            }
+            Projection::Orthographic { height } if !(height > 0.0 && height.is_finite()) => {
+                Some(format!("height of view {height}"))
+            }
+            _ => None,
+        }
+    }
+
+    /// A camera from the front right above that sees everything between two corners.
+    pub fn seeing(low: DVec3, high: DVec3) -> Camera {
+        let center = (low + high) * 0.5;
+        let radius = ((high - low) * 0.5).length().max(1e-30);
+        let fov: f64 = 40.0;
+        let away = DVec3::new(0.6, 0.45, 1.0).normalize();
+        let distance = radius / antumbra_math::real::sin((fov / 2.0).to_radians());
+        Camera::perspective(center + away * distance, center, fov)
+    }
 }

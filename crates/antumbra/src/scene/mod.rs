@@ -1,12 +1,21 @@
 //! What there is to see: builder → checked, immutable scene. Floor 4.
 
+mod areas;
+mod build;
 mod builder;
 pub mod builtin;
 mod camera;
 mod material;
 mod message;
+mod parts;
+#[allow(clippy::module_inception)]
+mod scene;
+mod surface;
 
+pub use areas::{SurfaceAreas, SurfacePoint};
 pub use builder::{Body, Mesh, MeshId, Object, SceneBuilder};
 pub use camera::{Camera, Projection};
 pub use material::{Alpha, Emission, Material, MaterialId, Surface, TextureId};
 pub use message::{Level, Message, SceneError};
+pub use scene::{Emits, LightNames, Placed, Scene, SceneMesh};
+pub use surface::{Look, Met, Start};

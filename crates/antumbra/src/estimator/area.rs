@@ -1,0 +1,36 @@
+//! The area form over the lights: L = ∫ f_r L_e V cos θ cos θ′ / r² dA, points drawn on the lights. Direct light.
+
+use super::lights::{Lights, sees_lights};
+use super::{Draws, Estimator, Options, Proposals};
+use crate::receiver::Receiver;
+use crate::scene::Scene;
+
+/// N shadow rays to points of the lights.
+pub struct Area {
+    lights: Lights,
+}
+
+impl Area {
+    /// For a scene's lights.
+    pub fn new(scene: &Scene, options: Options) -> Area {
+        Area { lights: Lights::new(scene, &options) }
+    }
+}
+
+impl Estimator for Area {
+    fn propose(&self, scene: &Scene, at: &[Receiver], u: &Draws<'_>, out: &mut Proposals) {
+        let mut scratch = Vec::new();
+        for at in at.iter().filter(|at| sees_lights(&at.bsdf)) {
+            self.lights.propose(scene, at, u, None, &mut scratch, out);
+        }
+    }
+
+    fn blind_to(&self, scene: &Scene) -> Vec<String> {
+        let mirror = |m: &crate::scene::Material| matches!(m.surface, crate::scene::Surface::Mirror { .. });
+        let blind = scene.materials.iter().any(mirror);
+        blind
+            .then(|| "estimator area does not see lights in mirrors (mis and path do)".into())
+            .into_iter()
+            .collect()
+    }
+}

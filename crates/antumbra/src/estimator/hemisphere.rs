@@ -1,0 +1,113 @@
+//! The hemisphere form: L = ∫ f_r L_e(ω) cos θ dω, directions drawn at the receiver. Direct light.
+
+use antumbra_math::{Local, Rgb, World, real};
+
+use super::{Draws, Estimator, Found, Mistake, Onward, Options, Proposals};
+use crate::density::Density;
+use crate::receiver::Receiver;
+use crate::sampler::Use;
+use crate::scene::Scene;
+
+/// How directions are drawn (`--directions`).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Directions {
+    /// As the BSDF reflects.
+    #[default]
+    Bsdf,
+    /// p = cos θ / π.
+    Cosine,
+    /// p = 1 / 2π.
+    Uniform,
+}
+
+/// A direction with what light along it is worth.
+pub(super) struct Direction {
+    pub wi: World,
+    /// f_r · cos θ / p.
+    pub throughput: Rgb,
+    pub density: Density,
+}
+
+impl Directions {
+    /// Draws ω_i for sample `j`; mirrors reflect as mirrors do.
+    #[inline]
+    pub(super) fn draw(self, at: &Receiver, u: &Draws<'_>, j: u32) -> Option<Direction> {
+        let [u0, u1] = u.pair(at, Use::Direction, j);
+        let drawn = if self == Directions::Bsdf || at.bsdf.is_delta() {
+            let s = at.bsdf.sample(at.wo, [u0, u1, u.one(at, Use::Lobe, j)])?;
+            Direction { wi: at.to_world(s.wi), throughput: s.throughput, density: s.density }
+        } else {
+            let local = self.hemisphere([u0, u1]);
+            let p = self.pdf(at, local);
+            if p <= 0.0 {
+                return None;
+            }
+            let throughput = at.bsdf.eval(at.wo, local) * (local.cos() / p);
+            Direction { wi: at.to_world(local), throughput, density: Density::SolidAngle(p) }
+        };
+        (at.sees_side(drawn.wi) && !drawn.throughput.is_black()).then_some(drawn)
+    }
+
+    /// p(ω) of `draw` [1/sr].
+    #[inline]
+    pub(super) fn pdf(self, at: &Receiver, wi: Local) -> f32 {
+        match self {
+            Directions::Bsdf => at.bsdf.pdf(at.wo, wi),
+            Directions::Cosine => wi.cos().max(0.0) * real::INV_PI,
+            Directions::Uniform => 0.5 * real::INV_PI,
+        }
+    }
+
+    fn hemisphere(self, u: [f32; 2]) -> Local {
+        let z = if self == Directions::Uniform { 1.0 - u[0] } else { (1.0 - u[0]).sqrt() };
+        let r = real::safe_sqrt(1.0 - z * z);
+        let phi = 2.0 * real::PI * u[1];
+        Local::new(r * real::cosf(phi), r * real::sinf(phi), z)
+    }
+}
+
+/// N directions; those that find a light carry it.
+pub struct Hemisphere {
+    directions: Directions,
+    mistake: Mistake,
+}
+
+impl Hemisphere {
+    /// Needs nothing of the scene.
+    pub fn new(_scene: &Scene, options: Options) -> Hemisphere {
+        Hemisphere { directions: options.directions, mistake: options.mistake }
+    }
+}
+
+impl Estimator for Hemisphere {
+    fn propose(&self, _scene: &Scene, at: &[Receiver], u: &Draws<'_>, out: &mut Proposals) {
+        for (from, at) in at.iter().enumerate() {
+            let n = u.count(at);
+            let share = if self.mistake == Mistake::NoCount { 1.0 } else { 1.0 / n as f32 };
+            for j in 0..n {
+                let Some(d) = self.directions.draw(at, u, j) else { continue };
+                let throughput = d.throughput * at.throughput * share;
+                let onward = Onward {
+                    from: from as u32,
+                    throughput,
+                    density: d.density,
+                    found: Found::All,
+                    goes_on: 0.0,
+                };
+                out.ray(at, d.wi, onward);
+            }
+        }
+    }
+
+    fn blind_to(&self, scene: &Scene) -> Vec<String> {
+        blind_to_points(scene, "hemisphere")
+    }
+}
+
+/// Directions never find lights without size.
+pub(super) fn blind_to_points(scene: &Scene, name: &str) -> Vec<String> {
+    let n = scene.lights().iter().filter(|l| l.is_delta()).count();
+    let text =
+        format!("estimator {name} does not see lights without size ({n} point, spot or directional here)");
+    if n > 0 { vec![text] } else { Vec::new() }
+}

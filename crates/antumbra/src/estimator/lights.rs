@@ -1,0 +1,211 @@
+//! Sampling the lights: which one, which point of it, and what a segment to it would carry.
+
+use antumbra_math::Rgb;
+
+use super::proposals::plane_of;
+use super::{Draws, Mistake, Options, Proposals};
+use crate::bsdf::Bsdf;
+use crate::density::Density;
+use crate::film::Planes;
+use crate::light::sampler::{Choose, LightSampler, Scratch};
+use crate::light::{End, LightId, LightPoints, LightSample};
+use crate::receiver::Receiver;
+use crate::sampler::Use;
+use crate::scene::Scene;
+
+/// Which lights a receiver asks (`--lights`).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum LightChoice {
+    /// All up to four lights, else the best chooser there is.
+    #[default]
+    Auto,
+    /// Every light, N shadow rays each.
+    All,
+    /// One a shadow ray, all alike.
+    Uniform,
+    /// One a shadow ray, in proportion to its power.
+    Power,
+    /// One a shadow ray, in proportion to its unoccluded light at the receiver.
+    Contribution,
+}
+
+/// `auto` asks every light up to this number.
+const AUTO_ALL: usize = 4;
+/// `contribution` looks at every light: beyond this number `auto` takes `power`.
+const AUTO_CONTRIBUTION: usize = 1024;
+
+/// The lights of a scene, ready to be drawn.
+pub struct Lights {
+    /// `None`: every light.
+    sampler: Option<LightSampler>,
+    how: LightPoints,
+    mistake: Mistake,
+    rays: u32,
+}
+
+impl Lights {
+    /// Prepares the choice among the scene's lights.
+    pub fn new(scene: &Scene, options: &Options) -> Lights {
+        let n = scene.lights().len();
+        let choose = match options.lights {
+            LightChoice::All => None,
+            LightChoice::Auto if n <= AUTO_ALL => None,
+            LightChoice::Auto if n > AUTO_CONTRIBUTION => Some(Choose::Power),
+            LightChoice::Auto | LightChoice::Contribution => Some(Choose::Contribution),
+            LightChoice::Uniform => Some(Choose::Uniform),
+            LightChoice::Power => Some(Choose::Power),
+        };
+        let sampler = choose.map(|c| LightSampler::new(c, scene.lights(), scene.radius()));
+        Lights { sampler, how: options.light_points, mistake: options.mistake, rays: options.shadow_rays }
+    }
+
+    /// Proposes N segments to the lights (or to each light), weighed against drawing the direction from `other`.
+    pub fn propose(
+        &self,
+        scene: &Scene,
+        at: &Receiver,
+        u: &Draws<'_>,
+        other: Option<&dyn Fn(&LightSample) -> f32>,
+        scratch: &mut Scratch,
+        out: &mut Proposals,
+    ) {
+        let n = u.count(at);
+        match &self.sampler {
+            None => {
+                for light in 0..scene.lights().len() as LightId {
+                    for j in 0..n {
+                        let point = u.pair_for(light, at, Use::LightPoint, j);
+                        self.shadow_ray(scene, at, (light, 1.0), point, n, other, out);
+                    }
+                }
+            }
+            Some(sampler) => {
+                let chooser = sampler.prepare(scene.lights(), at, scratch);
+                for j in 0..n {
+                    let Some(pick) = chooser.pick(u.one(at, Use::LightChoice, j)) else { return };
+                    let point = u.pair(at, Use::LightPoint, j);
+                    self.shadow_ray(scene, at, (pick.light, pick.prob), point, n, other, out);
+                }
+            }
+        }
+    }
+
+    /// L ≈ f_r(ω_o,ω_i) · L_e · cosθ_i / (p(light) · p(ω_i)) / N, short of V.
+    #[inline]
+    #[allow(clippy::too_many_arguments)]
+    fn shadow_ray(
+        &self,
+        scene: &Scene,
+        at: &Receiver,
+        (light, prob): (LightId, f32),
+        u: [f32; 2],
+        n: u32,
+        other: Option<&dyn Fn(&LightSample) -> f32>,
+        out: &mut Proposals,
+    ) {
+        let Some(s) = scene.lights()[light as usize].sample(at, u, self.how) else { return };
+        if !at.sees_side(s.wi) {
+            return;
+        }
+        let wi = at.to_local(s.wi);
+        let f = at.bsdf.eval(at.wo, wi);
+        let mut carried = f * s.radiance * (wi.cos() / (prob * s.density.weight()));
+        if let (Some(other), Density::SolidAngle(p)) = (other, s.density) {
+            carried = carried * balance(n as f32 * prob * p, n as f32 * other(&s));
+        }
+        carried = carried * self.mistaken(&s, n) * at.throughput;
+        if !carried.is_black() && carried.is_finite() {
+            out.segment(at, &s, plane_of(at), carried / n as f32);
+        }
+    }
+
+    /// n · p(light) · p(ω): how densely light sampling draws a direction that found `light`.
+    pub fn density(&self, scene: &Scene, at: &Receiver, light: LightId, wi: antumbra_math::World) -> f32 {
+        let prob = match &self.sampler {
+            None => 1.0,
+            Some(sampler) => sampler.prepare(scene.lights(), at, &mut Vec::new()).prob(light),
+        };
+        prob * scene.lights()[light as usize].pdf(at, wi, self.how)
+    }
+
+    /// The factor by which a wrong estimator differs from the right one.
+    fn mistaken(&self, s: &LightSample, n: u32) -> f32 {
+        let distance2 = s.distance * s.distance;
+        if self.mistake == Mistake::NoCount {
+            return n as f32;
+        }
+        if s.density.is_delta() || s.end == End::Infinity {
+            return if self.mistake == Mistake::NoDistance && distance2.is_finite() {
+                distance2
+            } else {
+                1.0
+            };
+        }
+        match self.mistake {
+            Mistake::NoCosLight => 1.0 / s.cos.max(1e-6),
+            Mistake::NoDistance => distance2,
+            // pdf_A taken for pdf_ω leaves out G's cos θ′/r²; the other way round it comes twice.
+            Mistake::WrongMeasure if self.how == LightPoints::Area => distance2 / s.cos.max(1e-6),
+            Mistake::WrongMeasure => s.cos / distance2,
+            _ => 1.0,
+        }
+    }
+
+    /// The mistake and the number of shadow rays that were asked for.
+    pub fn mistake(&self) -> (Mistake, u32) {
+        (self.mistake, self.rays)
+    }
+}
+
+/// Veach's balance heuristic: the share of the strategy with density `mine`.
+#[inline]
+pub fn balance(mine: f32, other: f32) -> f32 {
+    if mine <= 0.0 { 0.0 } else { 1.0 / (1.0 + other / mine) }
+}
+
+/// Segments for the planes `visible-fraction` (mean V, uniform area or solid angle) and `unshadowed-direct`: one to
+/// every light up to 16, else to one of them.
+pub fn propose_planes(
+    scene: &Scene,
+    at: &[Receiver],
+    u: &Draws<'_>,
+    planes: Planes,
+    mut unshadowed: impl FnMut(u32, Rgb),
+    out: &mut Proposals,
+) {
+    const EACH: u32 = 16;
+    let lights = scene.lights().len() as u32;
+    let chosen = lights.min(EACH);
+    for at in at.iter().filter(|at| at.bounce == 0) {
+        for k in 0..chosen {
+            let light = if lights <= EACH {
+                k
+            } else {
+                ((u.pair_for(k, at, Use::Lens, 0)[0] * lights as f32) as u32).min(lights - 1)
+            };
+            let light = &scene.lights()[light as usize];
+            let point = u.pair_for(k, at, Use::LightPoint, 0);
+            if planes.has(Planes::VISIBLE_FRACTION)
+                && let Some(s) = light.sample(at, point, LightPoints::Area)
+                && at.sees_side(s.wi)
+            {
+                out.segment(at, &s, Planes::VISIBLE_FRACTION, Rgb::grey(1.0 / chosen as f32));
+            }
+            if planes.has(Planes::UNSHADOWED)
+                && let Some(s) = light.sample(at, point, LightPoints::SolidAngle)
+                && at.sees_side(s.wi)
+            {
+                let wi = at.to_local(s.wi);
+                let share = lights as f32 / chosen as f32;
+                let f = at.bsdf.eval(at.wo, wi);
+                unshadowed(at.cell, f * s.radiance * (wi.cos() * share / s.density.weight()));
+            }
+        }
+    }
+}
+
+/// Light sampling can see this reflection.
+#[inline]
+pub fn sees_lights(bsdf: &Bsdf) -> bool {
+    !bsdf.is_delta()
+}

@@ -1,0 +1,180 @@
+//! Which segments and rays to try, and what each would carry. Floor 5; never asks a kernel.
+//!
+//! To add one: a file here and a line in `kinds!`. Law of every kind: E[Σ carried · V] is the integral that it names.
+
+mod ambient_occlusion;
+mod area;
+mod hemisphere;
+mod lights;
+mod mis;
+mod path;
+mod path_hemisphere;
+mod proposals;
+mod surfaces;
+
+pub use ambient_occlusion::{AmbientOcclusion, Falloff};
+pub use area::Area;
+pub use hemisphere::{Directions, Hemisphere};
+pub use lights::{LightChoice, Lights, propose_planes};
+pub use mis::Mis;
+pub use path::Path;
+pub use path_hemisphere::PathHemisphere;
+pub use proposals::{Found, Onward, Proposals};
+pub use surfaces::Surfaces;
+
+use antumbra_math::{World, hash};
+
+use crate::light::{LightId, LightPoints};
+use crate::receiver::Receiver;
+use crate::sampler::{AnySampler, PassPlan, Use};
+use crate::scene::Scene;
+
+/// Wrong on purpose, to show what a term is for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Mistake {
+    /// Right.
+    #[default]
+    None,
+    /// Leaves out cos θ′ at the light.
+    NoCosLight,
+    /// Leaves out 1/r².
+    NoDistance,
+    /// Takes the density over the light's area for one over solid angle (or the other way round).
+    WrongMeasure,
+    /// Counts light both by light sampling and when a direction finds it, with full weight.
+    CountedTwice,
+    /// Adds the samples up instead of averaging them.
+    NoCount,
+}
+
+/// What all kinds are made of.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Options {
+    /// N: shadow rays (or directions) per receiver.
+    pub shadow_rays: u32,
+    /// Longest path.
+    pub bounces: u32,
+    /// Which lights are asked.
+    pub lights: LightChoice,
+    /// How a point of a light is drawn.
+    pub light_points: LightPoints,
+    /// How directions are drawn.
+    pub directions: Directions,
+    /// Russian roulette.
+    pub roulette: bool,
+    /// Ambient occlusion: R.
+    pub radius: f32,
+    /// Ambient occlusion: weight of an occluder.
+    pub falloff: Falloff,
+    /// Wrong on purpose.
+    pub mistake: Mistake,
+}
+
+/// The random numbers of receivers, by use.
+pub struct Draws<'a> {
+    sampler: &'a AnySampler,
+    of: u32,
+    shadow_rays: u32,
+}
+
+impl<'a> Draws<'a> {
+    /// Numbers for a render of these passes with `shadow_rays` samples a receiver.
+    pub fn new(sampler: &'a AnySampler, passes: PassPlan, shadow_rays: u32) -> Draws<'a> {
+        Draws { sampler, of: passes.longest(), shadow_rays }
+    }
+
+    /// Samples that a receiver takes: N where the sensor looks, one on deeper bounces.
+    #[inline]
+    pub fn count(&self, at: &Receiver) -> u32 {
+        if at.bounce == 0 { self.shadow_rays } else { 1 }
+    }
+
+    /// Two numbers for sample `j` of a receiver. The N samples of all passes together are one set.
+    #[inline]
+    pub fn pair(&self, at: &Receiver, what: Use, j: u32) -> [f32; 2] {
+        self.pair_of(at.stream, at, what, j)
+    }
+
+    /// The same for light number `light` when every light is asked: the first shares the pixel's 4-D point.
+    #[inline]
+    pub fn pair_for(&self, light: u32, at: &Receiver, what: Use, j: u32) -> [f32; 2] {
+        let stream = if light == 0 { at.stream } else { hash::hash2(at.stream, light) };
+        self.pair_of(stream, at, what, j)
+    }
+
+    /// One number.
+    #[inline]
+    pub fn one(&self, at: &Receiver, what: Use, j: u32) -> f32 {
+        self.pair(at, what, j)[0]
+    }
+
+    #[inline]
+    fn pair_of(&self, stream: u32, at: &Receiver, what: Use, j: u32) -> [f32; 2] {
+        let n = self.count(at);
+        self.sampler.pair(stream, at.index * n + j, self.of * n, what.at(at.bounce))
+    }
+}
+
+/// What each kind of estimator answers.
+pub trait Estimator: Sync {
+    /// Segments that carry light if they are free; rays that carry throughput onward.
+    fn propose(&self, scene: &Scene, at: &[Receiver], u: &Draws<'_>, out: &mut Proposals);
+
+    /// Weight of light that a ray found (`Found::Weighed`): this strategy against light sampling.
+    fn found_weight(
+        &self,
+        _scene: &Scene,
+        _from: &Receiver,
+        _ray: &Onward,
+        _light: LightId,
+        _wi: World,
+    ) -> f32 {
+        1.0
+    }
+
+    /// What of this scene it cannot see, in a sentence each.
+    fn blind_to(&self, _scene: &Scene) -> Vec<String> {
+        Vec::new()
+    }
+}
+
+/// One enum of all kinds and its delegation.
+macro_rules! kinds {
+    ($($kind:ident),* $(,)?) => {
+        /// The words for the kinds (`--estimator`).
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub enum EstimatorKind {
+            $(#[doc = concat!("See [`", stringify!($kind), "`].")] $kind),*
+        }
+        /// An estimator, one of the closed list of kinds.
+        pub enum AnyEstimator {
+            $(#[doc = concat!("See [`", stringify!($kind), "`].")] $kind($kind)),*
+        }
+        impl AnyEstimator {
+            /// An estimator of this kind for a scene.
+            pub fn new(kind: EstimatorKind, scene: &Scene, options: Options) -> AnyEstimator {
+                match kind { $(EstimatorKind::$kind => AnyEstimator::$kind($kind::new(scene, options))),* }
+            }
+            /// See [`Estimator::propose`].
+            pub fn propose(&self, scene: &Scene, at: &[Receiver], u: &Draws<'_>, out: &mut Proposals) {
+                match self { $(AnyEstimator::$kind(e) => e.propose(scene, at, u, out)),* }
+            }
+            /// See [`Estimator::found_weight`].
+            pub fn found_weight(
+                &self, scene: &Scene, from: &Receiver, ray: &Onward, light: LightId, wi: World,
+            ) -> f32 {
+                match self { $(AnyEstimator::$kind(e) => e.found_weight(scene, from, ray, light, wi)),* }
+            }
+            /// See [`Estimator::blind_to`].
+            pub fn blind_to(&self, scene: &Scene) -> Vec<String> {
+                match self { $(AnyEstimator::$kind(e) => e.blind_to(scene)),* }
+            }
+        }
+        impl EstimatorKind {
+            /// All kinds.
+            pub const ALL: &'static [EstimatorKind] = &[$(EstimatorKind::$kind),*];
+        }
+    };
+}
+
+kinds!(Path, Area, Hemisphere, Surfaces, Mis, PathHemisphere, AmbientOcclusion);

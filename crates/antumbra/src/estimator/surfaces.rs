@@ -1,0 +1,67 @@
+//! The area form over *all* surfaces: points drawn evenly on everything there is; most of them are dark. Direct light.
+
+use antumbra_math::{Rgb, Vec3, World};
+
+use super::proposals::plane_of;
+use super::{Draws, Estimator, Options, Proposals};
+use crate::density::Density;
+use crate::light::{End, LightSample};
+use crate::receiver::Receiver;
+use crate::sampler::Use;
+use crate::scene::{Scene, SurfaceAreas};
+
+/// N points on all surfaces.
+pub struct Surfaces {
+    areas: SurfaceAreas,
+}
+
+impl Surfaces {
+    /// Measures the surfaces of a scene.
+    pub fn new(scene: &Scene, _options: Options) -> Surfaces {
+        Surfaces { areas: SurfaceAreas::of(scene) }
+    }
+}
+
+impl Estimator for Surfaces {
+    /// L ≈ f_r L_e cos θ cos θ′ / r² · A / N, short of V: p(p′) = 1/A.
+    fn propose(&self, scene: &Scene, at: &[Receiver], u: &Draws<'_>, out: &mut Proposals) {
+        for at in at {
+            let n = u.count(at);
+            for j in 0..n {
+                let point = u.pair(at, Use::LightPoint, j);
+                let Some(q) = self.areas.point(scene, u.one(at, Use::LightChoice, j), point) else {
+                    continue;
+                };
+                let to = q.p - at.p;
+                let distance2 = to.length_squared();
+                let distance = distance2.sqrt();
+                let wi: World = to / distance;
+                let facing = -q.n.dot(wi);
+                let radiance = scene.emitted_at(q.prim, wi, facing > 0.0);
+                if radiance.is_black() || !at.sees_side(wi) || facing == 0.0 || distance2 == 0.0 {
+                    continue;
+                }
+                let local = at.to_local(wi);
+                // G without V: cos θ cos θ′ / r².
+                let g = local.cos() * facing.abs() / distance2;
+                let carried = at.bsdf.eval(at.wo, local) * radiance * (g * self.areas.total() / n as f32);
+                let end = End::Point(Vec3::from(q.end_toward(-wi)));
+                let density = Density::SolidAngle(distance2 / (facing.abs() * self.areas.total()));
+                let sample =
+                    LightSample { wi, end, distance, radiance, density, prim: q.prim, cos: facing.abs() };
+                let carried: Rgb = carried * at.throughput;
+                if carried.is_finite() && !carried.is_black() {
+                    out.segment(at, &sample, plane_of(at), carried);
+                }
+            }
+        }
+    }
+
+    fn blind_to(&self, scene: &Scene) -> Vec<String> {
+        let n = scene.lights().iter().filter(|l| l.is_delta() || l.is_infinite()).count();
+        let text = format!(
+            "estimator surfaces does not see lights without a surface ({n} here: points, sun or sky)"
+        );
+        if n > 0 { vec![text] } else { Vec::new() }
+    }
+}

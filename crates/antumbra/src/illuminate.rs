@@ -1,0 +1,172 @@
+//! The one loop: sensor × estimator × visibility × film. Floor 6.
+
+use std::ops::Range;
+
+use antumbra_math::Vec3;
+use antumbra_trace::{Bits, Hits, NO_PRIM, Visibility};
+
+use crate::estimator::{AnyEstimator, Draws, Found, Proposals, propose_planes};
+use crate::film::{Film, Planes};
+use crate::receiver::Receiver;
+use crate::sampler::{AnySampler, PassPlan};
+use crate::scene::{Look, Scene};
+use crate::sensor::{Looking, Scratch, Sensor, Tile};
+
+/// What is to be computed.
+pub struct Job<'a> {
+    /// The scene.
+    pub scene: &'a Scene,
+    /// Its tree.
+    pub visibility: &'a dyn Visibility,
+    /// Where light is asked for.
+    pub sensor: &'a dyn Sensor,
+    /// How it is estimated.
+    pub estimator: &'a AnyEstimator,
+    /// Random numbers.
+    pub sampler: AnySampler,
+    /// Seed of all streams.
+    pub seed: u32,
+    /// N of the estimator.
+    pub shadow_rays: u32,
+    /// Longest path: 0 = what is seen itself, 1 = direct light.
+    pub bounces: u32,
+    /// All passes.
+    pub passes: PassPlan,
+    /// Planes beside the picture.
+    pub planes: Planes,
+    /// How the scene is looked at.
+    pub look: Look,
+    /// What the sensor adds where it looks.
+    pub seen: crate::sensor::Seen,
+    /// Teaching switch: off = nothing blocks.
+    pub shadows: bool,
+    /// Teaching switch: off = what lies behind a light shadows it too.
+    pub distance_test: bool,
+}
+
+/// Rays that were asked for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Counts {
+    /// Segments (any hit).
+    pub segments: u64,
+    /// Rays (closest hit), the sensor's too.
+    pub rays: u64,
+}
+
+/// Buffers of one thread, filled again and again.
+#[derive(Default)]
+pub struct Buffers {
+    scratch: Scratch,
+    receivers: Vec<Receiver>,
+    next: Vec<Receiver>,
+    proposals: Proposals,
+    blocked: Bits,
+    hits: Hits,
+}
+
+/// Sums what arrives at the cells of `tile` in `passes` into `film`.
+pub fn illuminate(job: &Job<'_>, tile: Tile, passes: Range<u32>, film: &mut Film, b: &mut Buffers) -> Counts {
+    let mut counts = Counts::default();
+    let looking = Looking {
+        scene: job.scene,
+        visibility: job.visibility,
+        look: job.look,
+        seen: job.seen,
+        sampler: &job.sampler,
+        seed: job.seed,
+        passes: job.passes,
+    };
+    let draws = Draws::new(&job.sampler, job.passes, job.shadow_rays);
+    b.proposals.beyond_lights = !job.distance_test;
+    for pass in passes {
+        b.receivers.clear();
+        job.sensor.receivers(&looking, tile, pass, &mut b.scratch, film, &mut b.receivers);
+        counts.rays += b.scratch.rays.len() as u64;
+        if job.planes.has(Planes::VISIBLE_FRACTION.union(Planes::UNSHADOWED)) {
+            light_planes(job, &draws, film, b, &mut counts);
+        }
+        for _ in 0..job.bounces {
+            if b.receivers.is_empty() {
+                break;
+            }
+            b.proposals.clear();
+            job.estimator.propose(job.scene, &b.receivers, &draws, &mut b.proposals);
+            gather(job, film, b, &mut counts);
+            follow(job, film, b, &mut counts);
+        }
+        film.next_sample();
+    }
+    counts
+}
+
+/// Adds what the free segments carry.
+fn gather(job: &Job<'_>, film: &mut Film, b: &mut Buffers, counts: &mut Counts) {
+    let segments = b.proposals.segments.as_segments();
+    counts.segments += segments.len() as u64;
+    if job.shadows {
+        job.visibility.occluded(segments, &mut b.blocked);
+    } else {
+        b.blocked.reset(segments.len());
+    }
+    for (i, carried) in b.proposals.carried.iter().enumerate() {
+        if b.blocked.get(i) {
+            continue;
+        }
+        if carried.plane != Planes::VISIBLE_FRACTION {
+            film.add(Planes::BEAUTY, carried.cell, carried.light);
+        }
+        film.add(carried.plane, carried.cell, carried.light);
+    }
+}
+
+/// Follows the rays: adds the light they find, makes receivers of the surfaces where they go on.
+fn follow(job: &Job<'_>, film: &mut Film, b: &mut Buffers, counts: &mut Counts) {
+    b.next.clear();
+    let rays = b.proposals.rays.as_segments();
+    counts.rays += rays.len() as u64;
+    if !rays.is_empty() {
+        job.visibility.nearest(rays, &mut b.hits);
+    }
+    for (i, onward) in b.proposals.onward.iter().enumerate() {
+        let from = &b.receivers[onward.from as usize];
+        let (o, wi) = (Vec3::from(rays.origin_at(i)), Vec3::from(rays.end_at(i)));
+        let plane = if from.bounce == 0 { Planes::DIRECT } else { Planes::INDIRECT };
+        let mut find = |light, radiance| {
+            let weight = match onward.found {
+                Found::Nothing => return,
+                Found::All => 1.0,
+                Found::Weighed => job.estimator.found_weight(job.scene, from, onward, light, wi),
+            };
+            let carried = onward.throughput * radiance * weight;
+            film.add(Planes::BEAUTY, from.cell, carried);
+            film.add(plane, from.cell, carried);
+        };
+        if b.hits.prim[i] == NO_PRIM {
+            job.scene.from_infinity(wi).for_each(|(light, radiance)| find(light, radiance));
+            continue;
+        }
+        let met = job.scene.meet(o, wi, b.hits.t[i], b.hits.prim[i], b.hits.uv[i], &job.look);
+        if let Some((light, radiance)) = met.emitted {
+            find(light, radiance);
+        }
+        if onward.goes_on > 0.0 {
+            b.next.push(Receiver {
+                cell: from.cell,
+                stream: from.stream,
+                index: from.index,
+                throughput: onward.throughput * onward.goes_on,
+                bounce: from.bounce + 1,
+                ..met.receiver
+            });
+        }
+    }
+    std::mem::swap(&mut b.receivers, &mut b.next);
+}
+
+/// The planes about the lights, by segments of their own.
+fn light_planes(job: &Job<'_>, draws: &Draws<'_>, film: &mut Film, b: &mut Buffers, counts: &mut Counts) {
+    b.proposals.clear();
+    let unshadowed = |cell, light| film.add(Planes::UNSHADOWED, cell, light);
+    propose_planes(job.scene, &b.receivers, draws, job.planes, unshadowed, &mut b.proposals);
+    gather(job, film, b, counts);
+}

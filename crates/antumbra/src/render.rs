@@ -1,0 +1,272 @@
+//! Scene and settings → picture. Floor 8.
+
+use antumbra_math::{DVec3, Rgb};
+
+use crate::estimator::{AnyEstimator, EstimatorKind, Options};
+use crate::film::{Film, Planes};
+use crate::illuminate::Job;
+use crate::light::Light;
+use crate::sampler::{AnySampler, PassPlan, SamplerOptions};
+use crate::scene::{Camera, Level, Look, Message, Projection, Scene, SceneError};
+use crate::schedule::{self, Finished, Flow, Progress};
+use crate::sensor::{CameraSensor, Seen, Tile, View};
+use crate::settings::{Masks, Settings};
+
+/// Size of a picture whose scene names none.
+const DEFAULT_SIZE: [u32; 2] = [640, 480];
+
+/// A finished picture (or the part of it that was reached).
+#[derive(Clone, Debug)]
+pub struct Picture {
+    /// Columns.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+    /// Radiance, row by row from the top [W·m⁻²·sr⁻¹].
+    pub pixels: Vec<[f32; 3]>,
+    /// Standard error of each pixel; `None` below two replicates (fewer than two viewing rays).
+    pub standard_error: Option<Vec<[f32; 3]>>,
+    /// The other planes: name, channels, values.
+    pub aovs: Vec<(String, usize, Vec<f32>)>,
+    /// Settings, seed, version, scene hash, pixel hash, …
+    pub metadata: Vec<(String, String)>,
+    /// Notes and warnings of this render (the scene has its own).
+    pub messages: Vec<Message>,
+    /// Passes that the picture holds.
+    pub passes_done: u32,
+    /// Passes that were asked for.
+    pub passes: u32,
+    /// Shadow rays (any hit).
+    pub segments: u64,
+    /// Viewing rays and rays onward (closest hit).
+    pub rays: u64,
+    /// Hash of the pixels' bits: the same for any number of threads and any SIMD level.
+    pub hash: u32,
+}
+
+/// Renders `scene`; `environment` replaces the light from all around (`Some(None)`: none).
+pub fn render(
+    scene: &Scene,
+    settings: &Settings,
+    environment: Option<Option<Light>>,
+    watch: &mut dyn FnMut(Progress) -> Flow,
+) -> Result<Picture, SceneError> {
+    let mut messages = Vec::new();
+    let scene = lit(scene, settings, environment)?;
+    let camera = camera(&scene, settings, &mut messages)?;
+    let view = view(&camera, settings)?;
+    let sensor = CameraSensor::new(&camera, view);
+    let estimator = AnyEstimator::new(settings.estimator, &scene, options(settings));
+    for text in estimator.blind_to(&scene) {
+        messages.push(Message { level: Level::Warning, place: String::new(), text });
+    }
+    if scene.lights().is_empty() && settings.estimator != EstimatorKind::AmbientOcclusion {
+        messages.push(Message {
+            level: Level::Warning,
+            place: String::new(),
+            text: "the scene has no light: the picture is black (--environment sky adds one)".into(),
+        });
+    }
+    let visibility = scene.visibility(settings.masks == Masks::Opaque);
+    let job = Job {
+        scene: &scene,
+        visibility: &visibility,
+        sensor: &sensor,
+        estimator: &estimator,
+        sampler: sampler(settings),
+        seed: settings.seed,
+        shadow_rays: settings.shadow_rays,
+        bounces: bounces(settings),
+        passes: PassPlan::of(settings.viewing_rays),
+        planes: settings.aov,
+        look: Look { clay: settings.clay, start: settings.self_intersection },
+        seen: seen(settings),
+        shadows: settings.shadows,
+        distance_test: settings.distance_test,
+    };
+    let finished = schedule::run(&job, settings.threads, watch);
+    Ok(picture(&scene, settings, &view, finished, messages))
+}
+
+/// The scene with the lights that the settings leave on.
+fn lit(scene: &Scene, settings: &Settings, environment: Option<Option<Light>>) -> Result<Scene, SceneError> {
+    let scene = match environment {
+        Some(light) => scene.under(light),
+        None => scene.clone(),
+    };
+    if settings.light.is_empty() {
+        return Ok(scene);
+    }
+    scene.only_lights(&settings.light).map_err(|unknown| {
+        let mut known: Vec<&str> = scene.light_names().names.iter().map(String::as_str).collect();
+        known.dedup();
+        known.truncate(20);
+        let hint = format!("its lights are: {}", known.join(", "));
+        SceneError::new("", format!("there is no light \"{unknown}\""), hint)
+    })
+}
+
+/// What estimators are made of.
+pub fn options(s: &Settings) -> Options {
+    Options {
+        shadow_rays: s.shadow_rays,
+        bounces: s.bounces,
+        lights: s.lights,
+        light_points: s.light_points,
+        directions: s.directions,
+        roulette: s.roulette,
+        radius: s.radius,
+        falloff: s.falloff,
+        mistake: s.mistake,
+    }
+}
+
+/// The sampler of the settings.
+pub fn sampler(s: &Settings) -> AnySampler {
+    AnySampler::new(s.sampler, SamplerOptions { seed: s.seed, pairing: s.pairing, rotate: s.rotate })
+}
+
+/// Estimators of direct light end after one bounce.
+fn bounces(s: &Settings) -> u32 {
+    match s.estimator {
+        EstimatorKind::Path | EstimatorKind::PathHemisphere => s.bounces,
+        EstimatorKind::AmbientOcclusion => 1,
+        _ => s.bounces.min(1),
+    }
+}
+
+fn seen(s: &Settings) -> Seen {
+    if s.estimator == EstimatorKind::AmbientOcclusion { Seen::Open } else { Seen::Light }
+}
+
+/// The camera that the settings ask for: the scene's, one of its others, or one made from what is known.
+fn camera(scene: &Scene, s: &Settings, messages: &mut Vec<Message>) -> Result<Camera, SceneError> {
+    let mut camera = match (&s.camera, scene.cameras.first()) {
+        (Some(name), _) => {
+            let named = scene.cameras.iter().find(|c| c.name == *name);
+            let known: Vec<&str> = scene.cameras.iter().map(|c| c.name.as_str()).collect();
+            let hint = format!("its cameras are: {}", known.join(", "));
+            named
+                .cloned()
+                .ok_or_else(|| SceneError::new("", format!("there is no camera \"{name}\""), hint))?
+        }
+        (None, Some(camera)) => camera.clone(),
+        (None, None) => {
+            let Some([low, high]) = scene.bounds() else {
+                return Err(SceneError::new("", "nothing to render: the scene has no geometry", ""));
+            };
+            if s.eye.is_none() {
+                let text = "no camera: made one that sees everything (--eye, --look-at to choose)".into();
+                messages.push(Message { level: Level::Note, place: String::new(), text });
+            }
+            Camera::seeing(low.as_dvec3(), high.as_dvec3())
+        }
+    };
+    let vector = |v: [f64; 3]| DVec3::from(v);
+    camera.eye = s.eye.map_or(camera.eye, vector);
+    camera.look_at = s.look_at.map_or(camera.look_at, vector);
+    camera.up = s.up.map_or(camera.up, vector);
+    if let Some(fov) = s.fov {
+        camera.projection = Projection::Perspective { vertical_fov: fov.to_radians() };
+    }
+    match camera.fault() {
+        Some(what) => Err(SceneError::new("camera", what, "choose other values of --eye, --look-at, --up")),
+        None => Ok(camera),
+    }
+}
+
+/// The size and the crop of the picture.
+fn view(camera: &Camera, s: &Settings) -> Result<View, SceneError> {
+    let of_aspect =
+        |a: f64| [DEFAULT_SIZE[0], ((f64::from(DEFAULT_SIZE[0]) / a).round() as u32).clamp(1, 1 << 14)];
+    let size = s.size.or(camera.size).or(camera.aspect.map(of_aspect)).unwrap_or(DEFAULT_SIZE);
+    let crop = s.crop.unwrap_or([0, 0, size[0], size[1]]);
+    let fits = |from: u32, length: u32, all: u32| u64::from(from) + u64::from(length) <= u64::from(all);
+    if !fits(crop[0], crop[2], size[0]) || !fits(crop[1], crop[3], size[1]) {
+        let what = format!(
+            "crop {},{},{},{} does not lie in {} x {} pixels",
+            crop[0], crop[1], crop[2], crop[3], size[0], size[1]
+        );
+        return Err(SceneError::new("", what, ""));
+    }
+    Ok(View { size, crop, viewing: s.viewing, filter: s.filter })
+}
+
+/// Films of tiles lie side by side.
+fn picture(scene: &Scene, s: &Settings, view: &View, finished: Finished, messages: Vec<Message>) -> Picture {
+    let [width, height] = [view.crop[2], view.crop[3]];
+    let plane = |plane: Planes| assemble(width, height, &finished.tiles, |film, cell| film.mean(plane, cell));
+    let pixels = plane(Planes::BEAUTY);
+    let known = finished.tiles.iter().all(|(_, film)| film.replicates() >= 2);
+    let standard_error = known.then(|| {
+        assemble(width, height, &finished.tiles, |film, cell| film.standard_error(cell).unwrap_or_default())
+    });
+    let mut aovs = Vec::new();
+    for (name, which, channels) in s.aov.named() {
+        let values = match which {
+            Planes::STANDARD_ERROR => {
+                standard_error.clone().unwrap_or_else(|| vec![[f32::NAN; 3]; pixels.len()])
+            }
+            Planes::SAMPLE_COUNT => vec![[finished.passes_done as f32; 3]; pixels.len()],
+            which => plane(which),
+        };
+        aovs.push((name.to_string(), channels, values.iter().flat_map(|v| v[..channels].to_vec()).collect()));
+    }
+    let hash = hash_of(&pixels);
+    let mut metadata = vec![
+        ("antumbra.version".to_string(), env!("CARGO_PKG_VERSION").to_string()),
+        ("antumbra.scene".to_string(), scene.name.clone()),
+        ("antumbra.scene-hash".to_string(), format!("{:016x}", scene.content_hash())),
+        ("antumbra.pixel-hash".to_string(), format!("{hash:08x}")),
+        ("antumbra.passes".to_string(), format!("{} of {}", finished.passes_done, s.viewing_rays)),
+    ];
+    metadata.extend(
+        s.shown().into_iter().map(|(name, value)| (format!("antumbra.{}", name.replace('_', "-")), value)),
+    );
+    Picture {
+        width,
+        height,
+        pixels,
+        standard_error,
+        aovs,
+        metadata,
+        messages,
+        passes_done: finished.passes_done,
+        passes: s.viewing_rays,
+        segments: finished.counts.segments,
+        rays: finished.counts.rays,
+        hash,
+    }
+}
+
+fn assemble(
+    width: u32,
+    height: u32,
+    tiles: &[(Tile, Film)],
+    value: impl Fn(&Film, usize) -> [f64; 3],
+) -> Vec<[f32; 3]> {
+    let mut pixels = vec![[0f32; 3]; width as usize * height as usize];
+    for (tile, film) in tiles {
+        for cell in 0..tile.cells() {
+            let (x, y) = (tile.x + cell % tile.width, tile.y + cell / tile.width);
+            pixels[y as usize * width as usize + x as usize] = value(film, cell as usize).map(|v| v as f32);
+        }
+    }
+    pixels
+}
+
+/// FNV-1a over the bits, folded to 32.
+fn hash_of(pixels: &[[f32; 3]]) -> u32 {
+    let h = antumbra_math::hash::fnv1a_words(pixels.iter().flatten().map(|c| c.to_bits()));
+    (h ^ (h >> 32)) as u32
+}
+
+impl Picture {
+    /// Mean standard error over mean, by luminance; `None` if the error is not known or the picture is black.
+    pub fn relative_error(&self) -> Option<f64> {
+        let luminance = |p: &[f32; 3]| f64::from(Rgb(*p).luminance());
+        let mean: f64 = self.pixels.iter().map(luminance).sum();
+        let error: f64 = self.standard_error.as_ref()?.iter().map(luminance).sum();
+        (mean > 0.0).then(|| error / mean)
+    }
+}

@@ -1,0 +1,216 @@
+//! Builder → scene: all checking happens here, once.
+
+use antumbra_math::{Transform, Vec3};
+use antumbra_trace::{Pool, Shape, Triangles};
+
+use super::parts::Parts;
+use super::{Body, Level, Material, Mesh, Object, Scene, SceneBuilder, SceneError};
+
+impl SceneBuilder {
+    /// Checks everything and builds the tree, in the calling thread.
+    pub fn build(self) -> Result<Scene, SceneError> {
+        self.build_in(Pool::serial())
+    }
+
+    /// Checks everything and builds the tree with the threads of `pool`.
+    pub fn build_in(mut self, pool: Pool<'_>) -> Result<Scene, SceneError> {
+        self.check_materials()?;
+        self.check_meshes()?;
+        self.check_objects()?;
+        self.check_lights();
+        self.drop_empty_cameras();
+        self.add_sky();
+        let mut parts = Parts::default();
+        let uses = self.mesh_uses();
+        let objects = std::mem::take(&mut self.objects);
+        let mut meshes: Vec<Option<Mesh>> = std::mem::take(&mut self.meshes).into_iter().map(Some).collect();
+        for object in objects {
+            let place = format!("object \"{}\"", object.name);
+            if let Err(what) = parts.place(object, &mut meshes, &uses) {
+                self.say(Level::Warning, place, format!("{what}: left out"));
+            }
+        }
+        for (name, light) in std::mem::take(&mut self.lights) {
+            parts.add_light(name, light, &mut self.materials);
+        }
+        parts.add_emissive_objects(&self.materials)?;
+        parts.finish(self, pool)
+    }
+
+    fn check_materials(&self) -> Result<(), SceneError> {
+        for (i, m) in self.materials.iter().enumerate() {
+            for texture in [m.color, m.metallic_roughness].into_iter().flatten() {
+                if texture as usize >= self.textures.len() {
+                    let what = format!("asks for texture {texture} of {}", self.textures.len());
+                    return Err(SceneError::new(material_place(i, m), what, ""));
+                }
+            }
+            if let Some(e) = m.emission
+                && !(e.radiance.is_finite() && e.radiance.0.iter().all(|c| *c >= 0.0))
+            {
+                let what = format!("emits {:?}: radiance must be finite and not negative", e.radiance.0);
+                return Err(SceneError::new(material_place(i, m), what, ""));
+            }
+        }
+        Ok(())
+    }
+
+    /// Indices in range; triangles with a corner that is not finite are dropped, with a warning.
+    fn check_meshes(&mut self) -> Result<(), SceneError> {
+        let mut said = Vec::new();
+        for (i, mesh) in self.meshes.iter_mut().enumerate() {
+            let place =
+                if mesh.name.is_empty() { format!("mesh {i}") } else { format!("mesh \"{}\"", mesh.name) };
+            let n = mesh.triangles.vertices.len();
+            if let Some(bad) = mesh.triangles.indices.iter().flatten().find(|v| **v as usize >= n) {
+                let what = format!("a triangle asks for vertex {bad}, but there are {n}");
+                return Err(SceneError::new(place, what, "the file is damaged or its exporter is wrong"));
+            }
+            let attributes = [
+                ("normals", mesh.normals.as_ref().map(Vec::len)),
+                ("texture coordinates", mesh.uvs[0].as_ref().map(Vec::len)),
+                ("texture coordinates", mesh.uvs[1].as_ref().map(Vec::len)),
+                ("colours", mesh.colors.as_ref().map(Vec::len)),
+            ];
+            for (what, len) in attributes {
+                if len.is_some_and(|len| len != n) {
+                    let what =
+                        format!("{} {what} for {n} vertices: one a vertex is needed", len.unwrap_or(0));
+                    return Err(SceneError::new(place, what, ""));
+                }
+            }
+            let dropped = drop_unusable(&mut mesh.triangles);
+            if dropped > 0 {
+                said.push((
+                    place,
+                    format!("{dropped} triangles with coordinates that are not finite: left out"),
+                ));
+            }
+        }
+        said.into_iter().for_each(|(place, text)| self.say(Level::Warning, place, text));
+        Ok(())
+    }
+
+    /// References in range; objects that have no place in space are left out, with a warning.
+    fn check_objects(&mut self) -> Result<(), SceneError> {
+        let mut kept = Vec::with_capacity(self.objects.len());
+        for (i, object) in std::mem::take(&mut self.objects).into_iter().enumerate() {
+            let place = if object.name.is_empty() {
+                format!("object {i}")
+            } else {
+                format!("object \"{}\"", object.name)
+            };
+            let mesh_missing = matches!(object.body, Body::Mesh(m) if m as usize >= self.meshes.len());
+            if mesh_missing || object.material as usize >= self.materials.len() {
+                return Err(SceneError::new(place, "asks for a mesh or material that does not exist", ""));
+            }
+            let singular =
+                !object.transform.is_finite() || object.transform.inverse().is_none_or(|t| !t.is_finite());
+            if singular {
+                self.say(Level::Warning, place, "its transform squeezes it flat (singular): left out");
+                continue;
+            }
+            if let Body::Shape(shape) = &object.body {
+                if let Some(what) = shape_fault(shape) {
+                    return Err(SceneError::new(place, what, ""));
+                }
+                if object.transform != Transform::IDENTITY {
+                    return Err(SceneError::new(
+                        place,
+                        "a shape cannot be transformed",
+                        "give its numbers in world space",
+                    ));
+                }
+            }
+            kept.push(object);
+        }
+        self.objects = kept;
+        Ok(())
+    }
+
+    /// Lights whose numbers make no sense are left out, with a warning.
+    fn check_lights(&mut self) {
+        for (name, light) in std::mem::take(&mut self.lights) {
+            match light.fault() {
+                None => self.lights.push((name, light)),
+                Some(what) => {
+                    let place = format!("{} light \"{name}\"", light.kind().to_lowercase());
+                    self.say(Level::Warning, place, format!("{what}: left out"));
+                }
+            }
+        }
+    }
+
+    fn drop_empty_cameras(&mut self) {
+        for camera in std::mem::take(&mut self.cameras) {
+            match camera.fault() {
+                None => self.cameras.push(camera),
+                Some(what) => self.say(
+                    Level::Warning,
+                    format!("camera \"{}\"", camera.name),
+                    format!("{what}: left out"),
+                ),
+            }
+        }
+    }
+
+    /// Files that cannot carry lights, or carry none, get the default sky.
+    fn add_sky(&mut self) {
+        let emissive =
+            |o: &Object| self.materials[o.material as usize].emission.is_some_and(|e| !e.radiance.is_black());
+        if self.sky_if_unlit && self.lights.is_empty() && !self.objects.iter().any(emissive) {
+            self.light("sky", crate::light::Environment::constant(antumbra_math::Rgb::WHITE));
+            self.say(
+                Level::Note,
+                "",
+                "no light in the file: lit by the default sky (--environment to choose)",
+            );
+        }
+    }
+
+    fn mesh_uses(&self) -> Vec<usize> {
+        let mut uses = vec![0; self.meshes.len()];
+        for object in &self.objects {
+            if let Body::Mesh(m) = object.body {
+                uses[m as usize] += 1;
+            }
+        }
+        uses
+    }
+}
+
+fn material_place(i: usize, m: &Material) -> String {
+    if m.name.is_empty() { format!("material {i}") } else { format!("material \"{}\"", m.name) }
+}
+
+/// Leaves out triangles with a corner that is not finite; returns how many. Unused vertices become the origin.
+fn drop_unusable(triangles: &mut Triangles) -> usize {
+    let finite = |v: &[f32; 3]| v.iter().all(|c| c.is_finite());
+    if triangles.vertices.iter().all(finite) {
+        return 0;
+    }
+    let before = triangles.indices.len();
+    let vertices = &mut triangles.vertices;
+    triangles.indices.retain(|t| t.iter().all(|v| finite(&vertices[*v as usize])));
+    vertices.iter_mut().filter(|v| !finite(v)).for_each(|v| *v = [0.0; 3]);
+    before - triangles.indices.len()
+}
+
+fn shape_fault(shape: &Shape) -> Option<String> {
+    let (numbers, radius, length): (Vec<f32>, f32, f32) = match shape {
+        Shape::Sphere { center, radius } => (center.to_vec(), *radius, 1.0),
+        Shape::Disk { center, normal, radius } => {
+            ([*center, *normal].concat(), *radius, Vec3::from(*normal).length())
+        }
+        Shape::Cylinder { p, q, radius } => {
+            ([*p, *q].concat(), *radius, (Vec3::from(*q) - Vec3::from(*p)).length())
+        }
+    };
+    if !numbers.iter().all(|x| x.is_finite()) {
+        return Some(format!("{shape:?}: a coordinate is not finite"));
+    }
+    if !(radius > 0.0 && radius.is_finite() && length > 0.0) {
+        return Some(format!("{shape:?}: radius, normal and axis need a length above 0"));
+    }
+    None
+}

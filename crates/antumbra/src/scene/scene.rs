@@ -1,0 +1,285 @@
+//! The checked, immutable scene that every sensor, estimator and query looks at.
+
+use std::sync::Arc;
+
+use antumbra_math::{Rgb, Transform, Vec3, World as Direction, hash};
+use antumbra_trace::{Bits, Hits, Passes, PrimId, Segments, Triangles, Visibility, World};
+
+use super::{Alpha, Body, Camera, Material, Message};
+use crate::light::{Light, LightId};
+use crate::texture::Texture;
+
+/// A mesh as the tree and the shading share it.
+#[derive(Clone, Debug)]
+pub struct SceneMesh {
+    /// Its name; may be empty.
+    pub name: String,
+    /// Positions and indices.
+    pub triangles: Arc<Triangles>,
+    /// Shading normals, one a vertex.
+    pub normals: Option<Vec<[f32; 3]>>,
+    /// Texture coordinates, sets 0 and 1.
+    pub uvs: [Option<Vec<[f32; 2]>>; 2],
+    /// Linear colours and alpha.
+    pub colors: Option<Vec<[f32; 4]>>,
+}
+
+/// Which light a primitive of an object is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Emits {
+    /// None.
+    Nothing,
+    /// The whole object is this light.
+    One(LightId),
+    /// Primitive i is light `first` + i.
+    Each(LightId),
+}
+
+/// An object in its place; instance i of the world is object i.
+#[derive(Clone, Debug)]
+pub struct Placed {
+    /// Its name; may be empty.
+    pub name: String,
+    /// What it is made of (meshes: index into [`Scene::meshes`]).
+    pub body: Body,
+    /// Its look.
+    pub material: u32,
+    /// Object → world, or `None` where the numbers are world numbers.
+    pub transform: Option<Transform>,
+    /// Its first primitive in the world.
+    pub first_prim: PrimId,
+    /// Which lights its primitives are.
+    pub emits: Emits,
+}
+
+/// Names of all lights, and which of them shine.
+#[derive(Clone, Debug, Default)]
+pub struct LightNames {
+    /// Name of each light of the scene (may be empty).
+    pub names: Vec<String>,
+    /// Where it stands among those that shine, or `u32::MAX`.
+    pub slots: Vec<u32>,
+}
+
+/// A scene. Cloning is cheap: geometry is shared.
+#[derive(Clone)]
+pub struct Scene {
+    /// What people call it.
+    pub name: String,
+    /// What its file says of itself.
+    pub source: String,
+    /// Meshes.
+    pub meshes: Arc<Vec<SceneMesh>>,
+    /// Objects in their places.
+    pub objects: Arc<Vec<Placed>>,
+    /// Looks.
+    pub materials: Arc<Vec<Material>>,
+    /// Textures.
+    pub textures: Arc<Vec<Texture>>,
+    /// Cameras; the first is the default.
+    pub cameras: Vec<Camera>,
+    /// Notes and warnings.
+    pub messages: Vec<Message>,
+    pub(super) lights: Arc<Vec<Light>>,
+    pub(super) light_names: LightNames,
+    pub(super) world: Arc<World>,
+    pub(super) radius: f32,
+}
+
+impl Scene {
+    /// The lights that shine.
+    #[inline]
+    pub fn lights(&self) -> &[Light] {
+        &self.lights
+    }
+
+    /// Name of each light of the scene and whether it shines.
+    pub fn light_names(&self) -> &LightNames {
+        &self.light_names
+    }
+
+    /// The tree.
+    pub fn world(&self) -> &World {
+        &self.world
+    }
+
+    /// Radius of a sphere about everything with a surface (1 if there is nothing).
+    pub fn radius(&self) -> f32 {
+        self.radius
+    }
+
+    /// Lower and upper corner of everything with a surface; `None` if there is nothing.
+    pub fn bounds(&self) -> Option<[Vec3; 2]> {
+        let (low, high) = self.world.bounds();
+        (self.world.prim_count() > 0).then(|| [Vec3::from(low), Vec3::from(high)])
+    }
+
+    /// Triangles, each instance counted.
+    pub fn triangle_count(&self) -> u64 {
+        let of = |o: &Placed| match o.body {
+            Body::Mesh(m) => self.meshes[m as usize].triangles.indices.len() as u64,
+            Body::Shape(_) => 0,
+        };
+        self.objects.iter().map(of).sum()
+    }
+
+    /// The object of a primitive, and which primitive of it.
+    #[inline]
+    pub fn locate(&self, prim: PrimId) -> (&Placed, u32) {
+        // Primitives come from the world's own hits; a foreign number is taken for the first.
+        let (instance, local) = self.world.locate(prim).unwrap_or_default();
+        (&self.objects[instance as usize], local)
+    }
+
+    /// The light that a primitive is, if it shines.
+    #[inline]
+    pub fn light_of(&self, object: &Placed, local: u32) -> Option<LightId> {
+        let light = match object.emits {
+            Emits::Nothing => return None,
+            Emits::One(light) => light,
+            Emits::Each(first) => first + local,
+        };
+        let slot = self.light_names.slots[light as usize];
+        (slot != u32::MAX).then_some(slot)
+    }
+
+    /// Light from infinity along `wi`, with the light it comes from.
+    pub fn from_infinity(&self, wi: Direction) -> impl Iterator<Item = (LightId, Rgb)> + '_ {
+        let infinite = self.lights.iter().enumerate().filter(|(_, l)| l.is_infinite());
+        infinite.filter_map(move |(i, l)| l.hit(Direction::ZERO, wi).map(|h| (i as LightId, h.radiance)))
+    }
+
+    /// The same scene with only the lights of these names; `Err` = a name that no light has.
+    pub fn only_lights(&self, names: &[String]) -> Result<Scene, String> {
+        if let Some(unknown) = names.iter().find(|n| !self.light_names.names.contains(n)) {
+            return Err(unknown.clone());
+        }
+        Ok(self.with_lights(|name, _| names.iter().any(|n| n == name), None))
+    }
+
+    /// The same scene under another environment; `None` = without one.
+    pub fn under(&self, environment: Option<Light>) -> Scene {
+        self.with_lights(|_, light| !light.is_environment(), environment)
+    }
+
+    fn with_lights(&self, keep: impl Fn(&str, &Light) -> bool, more: Option<Light>) -> Scene {
+        let mut kept = Vec::new();
+        let mut names = self.light_names.clone();
+        for (name, slot) in names.names.iter().zip(&mut names.slots) {
+            if *slot != u32::MAX {
+                let light = &self.lights[*slot as usize];
+                *slot = u32::MAX;
+                if keep(name, light) {
+                    *slot = kept.len() as u32;
+                    kept.push(light.clone());
+                }
+            }
+        }
+        if let Some(light) = more {
+            names.names.push("environment".into());
+            names.slots.push(kept.len() as u32);
+            kept.push(light);
+        }
+        Scene { lights: Arc::new(kept), light_names: names, ..self.clone() }
+    }
+
+    /// Which segments are free: alpha masks as the file says, or everything opaque.
+    pub fn visibility(&self, opaque: bool) -> SceneVisibility<'_> {
+        SceneVisibility { scene: self, opaque: opaque || !self.world.has_masks() }
+    }
+
+    /// A number that changes with anything that is seen: geometry, places, looks, lights, cameras.
+    pub fn content_hash(&self) -> u64 {
+        let mut all = 0u64;
+        let mut take = |h: u64| all = all.rotate_left(5).wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ h;
+        for mesh in self.meshes.iter() {
+            let bits = |v: &[f32; 3]| v.iter().fold(0u64, |h, c| h.rotate_left(21) ^ u64::from(c.to_bits()));
+            mesh.triangles.vertices.iter().for_each(|v| take(bits(v)));
+            mesh.triangles.indices.iter().for_each(|[a, b, c]| {
+                take(u64::from(*a) ^ u64::from(*b).rotate_left(21) ^ u64::from(*c).rotate_left(42));
+            });
+            mesh.normals.iter().flatten().for_each(|v| take(bits(v)));
+        }
+        let text = |x: &dyn std::fmt::Debug| hash::fnv1a(format!("{x:?}").as_bytes());
+        self.objects.iter().for_each(|o| take(text(&(&o.body, o.transform, o.material))));
+        self.materials.iter().for_each(|m| take(text(m)));
+        self.lights.iter().for_each(|l| take(text(l)));
+        self.cameras.iter().for_each(|c| take(text(c)));
+        all
+    }
+
+    /// Alpha of a masked surface at `uv`, in [0, 1].
+    fn alpha(&self, object: &Placed, local: u32, uv: [f32; 2]) -> f32 {
+        let material = &self.materials[object.material as usize];
+        let Body::Mesh(mesh) = object.body else { return material.opacity };
+        let mesh = &self.meshes[mesh as usize];
+        let color = mesh.color_at(local, uv).map_or(1.0, |c| c[3]);
+        let texture = material.color.map(|t| &self.textures[t as usize]);
+        let texel = texture.map_or(1.0, |t| t.at(mesh.uv_at(t.uv_set, local, uv))[3]);
+        material.opacity * color * texel
+    }
+}
+
+impl SceneMesh {
+    /// Σ weight · attribute over the corners of a triangle.
+    #[inline]
+    pub(super) fn interpolate<const N: usize>(
+        &self,
+        values: &[[f32; N]],
+        local: u32,
+        uv: [f32; 2],
+    ) -> [f32; N] {
+        let [a, b, c] = self.triangles.indices[local as usize].map(|v| values[v as usize]);
+        std::array::from_fn(|k| a[k] * (1.0 - uv[0] - uv[1]) + b[k] * uv[0] + c[k] * uv[1])
+    }
+
+    /// Texture coordinates at a point; (0, 0) where the mesh has none.
+    #[inline]
+    pub(super) fn uv_at(&self, set: u8, local: u32, uv: [f32; 2]) -> [f32; 2] {
+        let set = self.uvs.get(set as usize).and_then(Option::as_ref);
+        set.map_or([0.0; 2], |values| self.interpolate(values, local, uv))
+    }
+
+    /// Vertex colour at a point.
+    #[inline]
+    pub(super) fn color_at(&self, local: u32, uv: [f32; 2]) -> Option<[f32; 4]> {
+        self.colors.as_ref().map(|values| self.interpolate(values, local, uv))
+    }
+}
+
+/// MASK by its cutoff; BLEND passes with probability 1 − α by a hash of (ray number, primitive).
+impl Passes for Scene {
+    fn passes(&self, number: u32, prim: PrimId, uv: [f32; 2]) -> bool {
+        let (object, local) = self.locate(prim);
+        let alpha = self.alpha(object, local, uv);
+        match self.materials[object.material as usize].alpha {
+            Alpha::Opaque => false,
+            Alpha::Mask { cutoff } => alpha < cutoff,
+            Alpha::Blend => hash::unit_f32(hash::hash2(number, prim)) >= alpha,
+        }
+    }
+}
+
+/// The tree with the scene's alpha masks.
+pub struct SceneVisibility<'a> {
+    scene: &'a Scene,
+    opaque: bool,
+}
+
+impl Visibility for SceneVisibility<'_> {
+    fn occluded(&self, segments: Segments<'_>, out: &mut Bits) {
+        if self.opaque {
+            self.scene.world.occluded(segments, out);
+        } else {
+            self.scene.world.with_passes(self.scene).occluded(segments, out);
+        }
+    }
+
+    fn nearest(&self, rays: Segments<'_>, out: &mut Hits) {
+        if self.opaque {
+            self.scene.world.nearest(rays, out);
+        } else {
+            self.scene.world.with_passes(self.scene).nearest(rays, out);
+        }
+    }
+}

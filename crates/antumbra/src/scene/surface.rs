@@ -1,0 +1,218 @@
+//! What a ray met: the point, its normals, its reflection and its emission there.
+
+use antumbra_math::{DVec3, Frame, Rgb, Vec3, World};
+use antumbra_trace::{NO_PRIM, PrimId, Shape, start};
+
+use super::{Body, Placed, Scene, SceneMesh, Surface};
+use crate::bsdf::{Bsdf, Diffuse, MetallicRoughness, Mirror};
+use crate::light::LightId;
+use crate::receiver::Receiver;
+
+/// Where segments start. `Safe` is right; the others show why.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Start {
+    /// LAW §5: provably above the surface.
+    #[default]
+    Safe,
+    /// At the rounded position itself.
+    None,
+    /// A fixed distance above it.
+    Epsilon(f32),
+}
+
+/// How a render looks at the scene.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Look {
+    /// Every surface two-sided diffuse of this reflectance.
+    pub clay: Option<f32>,
+    /// Where segments start.
+    pub start: Start,
+}
+
+/// A surface that a ray met.
+#[derive(Clone, Copy, Debug)]
+pub struct Met {
+    /// The point, ready to ask for light (cell, stream, throughput are the caller's).
+    pub receiver: Receiver,
+    /// L_e toward where the ray came from, and the light it belongs to.
+    pub emitted: Option<(LightId, Rgb)>,
+    /// The ray met the front.
+    pub front: bool,
+}
+
+/// A point of a primitive with its outward unit normal, in f64.
+pub(super) struct Place {
+    pub(super) p: DVec3,
+    pub(super) outward: DVec3,
+    corners: Option<[DVec3; 3]>,
+    /// Largest number that went into it (LAW §5).
+    extent: f64,
+}
+
+impl Scene {
+    /// The surface at `prim`, met by the ray from `o` along `d` (any length) at parameter `t` and weights `uv`.
+    pub fn meet(&self, o: Vec3, d: Vec3, t: f64, prim: PrimId, uv: [f32; 2], look: &Look) -> Met {
+        let (object, local) = self.locate(prim);
+        let place = self.place(object, local, o.as_dvec3() + d.as_dvec3() * t, uv);
+        let front = place.outward.dot(d.as_dvec3()) < 0.0;
+        let toward = if front { place.outward } else { -place.outward };
+        let (start, first) = place.start(toward, prim, look.start);
+        let wo = -d.normalize();
+        let ng = toward.as_vec3();
+        let frame = self.shading_frame(object, local, uv, ng, front, wo);
+        let receiver = Receiver {
+            p: place.p.as_vec3(),
+            start,
+            prim: first,
+            ng,
+            wo: frame.to_local(wo),
+            frame,
+            bsdf: self.bsdf(object, local, uv, look),
+            cell: 0,
+            stream: 0,
+            index: 0,
+            throughput: Rgb::WHITE,
+            bounce: 0,
+        };
+        let light = self.light_of(object, local);
+        let emitted = light.map(|id| (id, self.lights()[id as usize].emitted(-wo, front)));
+        Met { receiver, emitted: emitted.filter(|(_, l)| !l.is_black()), front }
+    }
+
+    fn place(&self, object: &Placed, local: u32, p: DVec3, uv: [f32; 2]) -> Place {
+        match &object.body {
+            Body::Shape(shape) => Place::on_shape(shape, p),
+            Body::Mesh(mesh) => Place::on_triangle(&self.meshes[*mesh as usize], object, local, uv),
+        }
+    }
+
+    /// The frame about the interpolated normal, on the viewer's side of both surface and normal.
+    fn shading_frame(
+        &self,
+        object: &Placed,
+        local: u32,
+        uv: [f32; 2],
+        ng: Vec3,
+        front: bool,
+        wo: World,
+    ) -> Frame {
+        let Body::Mesh(mesh) = object.body else { return Frame::about(ng) };
+        let mesh = &self.meshes[mesh as usize];
+        let Some(normals) = &mesh.normals else { return Frame::about(ng) };
+        let n = DVec3::from(mesh.interpolate(normals, local, uv).map(f64::from));
+        let n = object.transform.map_or(n, |t| t.normal(n)).normalize_or_zero().as_vec3();
+        let n = if front { n } else { -n };
+        // A normal that turns away from the viewer or from its own face cannot bend the BSDF: use the face's.
+        if n.dot(ng) > 0.0 && n.dot(wo) > 0.0 { Frame::about(n) } else { Frame::about(ng) }
+    }
+
+    /// The reflection of a surface with its textures looked up.
+    fn bsdf(&self, object: &Placed, local: u32, uv: [f32; 2], look: &Look) -> Bsdf {
+        if let Some(rho) = look.clay {
+            return Bsdf::Diffuse(Diffuse { albedo: Rgb::grey(rho) });
+        }
+        let material = &self.materials[object.material as usize];
+        let mesh = match object.body {
+            Body::Mesh(m) => Some(&self.meshes[m as usize]),
+            Body::Shape(_) => None,
+        };
+        let texel = |id: Option<u32>| {
+            let texture = &self.textures[id? as usize];
+            Some(texture.at(mesh?.uv_at(texture.uv_set, local, uv)))
+        };
+        let tint = |c: Rgb| {
+            let texel = texel(material.color).map_or(Rgb::WHITE, |t| Rgb([t[0], t[1], t[2]]));
+            let vertex =
+                mesh.and_then(|m| m.color_at(local, uv)).map_or(Rgb::WHITE, |c| Rgb([c[0], c[1], c[2]]));
+            c * texel * vertex
+        };
+        match material.surface {
+            Surface::Diffuse { albedo } => Bsdf::Diffuse(Diffuse { albedo: tint(albedo) }),
+            Surface::Mirror { reflectance } => Bsdf::Mirror(Mirror { reflectance: tint(reflectance) }),
+            Surface::MetallicRoughness { base, metallic, roughness } => {
+                let [_, green, blue, _] = texel(material.metallic_roughness).unwrap_or([1.0; 4]);
+                Bsdf::MetallicRoughness(MetallicRoughness::new(
+                    tint(base),
+                    metallic * blue,
+                    roughness * green,
+                ))
+            }
+        }
+    }
+}
+
+impl Place {
+    /// p by barycentrics in f64, the geometric normal from the corners in world space.
+    pub(super) fn on_triangle(mesh: &SceneMesh, object: &Placed, local: u32, uv: [f32; 2]) -> Place {
+        let own = mesh.triangles.corners(local as usize).map(|c| DVec3::from(c.map(f64::from)));
+        let n = (own[1] - own[0]).cross(own[2] - own[0]);
+        let (corners, n, extent) = match &object.transform {
+            None => (own, n, 0.0),
+            Some(t) => {
+                let largest = own.iter().fold(0.0, |m: f64, c| m.max(c.abs().max_element()));
+                let rows = t.linear.transpose();
+                let norm = rows.x_axis.abs().element_sum().max(rows.y_axis.abs().element_sum());
+                let norm = norm.max(rows.z_axis.abs().element_sum());
+                (
+                    own.map(|c| t.point(c)),
+                    t.normal(n),
+                    (norm * largest).max(t.translation.abs().max_element()),
+                )
+            }
+        };
+        let [u, v] = uv.map(f64::from);
+        let p = corners[0] * (1.0 - u - v) + corners[1] * u + corners[2] * v;
+        Place { p, outward: n.normalize_or_zero(), corners: Some(corners), extent }
+    }
+
+    /// The hit point drawn back onto the surface.
+    pub(super) fn on_shape(shape: &Shape, p: DVec3) -> Place {
+        let dvec = |v: [f32; 3]| DVec3::from(v.map(f64::from));
+        match *shape {
+            Shape::Sphere { center, radius } => {
+                let (c, r) = (dvec(center), f64::from(radius));
+                let outward = (p - c).normalize_or_zero();
+                Place { p: c + outward * r, outward, corners: None, extent: c.abs().max_element() + r }
+            }
+            Shape::Disk { center, normal, radius } => {
+                let (c, n) = (dvec(center), dvec(normal).normalize_or_zero());
+                let p = p - n * (p - c).dot(n);
+                Place { p, outward: n, corners: None, extent: c.abs().max_element() + f64::from(radius) }
+            }
+            Shape::Cylinder { p: from, q: to, radius } => {
+                let (from, to, r) = (dvec(from), dvec(to), f64::from(radius));
+                let axis = (to - from).normalize_or_zero();
+                let on_axis = from + axis * (p - from).dot(axis);
+                let outward = (p - on_axis).normalize_or_zero();
+                let extent = from.abs().max_element().max(to.abs().max_element()) + r;
+                Place { p: on_axis + outward * r, outward, corners: None, extent }
+            }
+        }
+    }
+
+    /// Area of the triangle; 0 for shapes.
+    pub(super) fn area(&self) -> f64 {
+        self.corners.map_or(0.0, |[a, b, c]| 0.5 * (b - a).cross(c - a).length())
+    }
+
+    /// The safe start (or end) on the outward (+1) or inward (−1) side.
+    pub(super) fn lifted(&self, side: f64) -> [f32; 3] {
+        self.start(self.outward * side, NO_PRIM, Start::Safe).0
+    }
+
+    /// Where segments start on the side of `toward`, and the primitive that they are known to leave.
+    fn start(&self, toward: DVec3, prim: PrimId, how: Start) -> ([f32; 3], PrimId) {
+        match (how, &self.corners) {
+            (Start::Safe, Some(corners)) => {
+                let corners = corners.map(|c| c.to_array());
+                let p = self.p.to_array();
+                (start::start_on_placed_triangle(p, toward.to_array(), corners, self.extent), prim)
+            }
+            (Start::Safe, None) => {
+                (start::start_on_shape(self.p.to_array(), toward.to_array(), self.extent), prim)
+            }
+            (Start::None, _) => (self.p.as_vec3().to_array(), NO_PRIM),
+            (Start::Epsilon(e), _) => ((self.p + toward * f64::from(e)).as_vec3().to_array(), NO_PRIM),
+        }
+    }
+}

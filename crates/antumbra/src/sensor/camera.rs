@@ -1,0 +1,274 @@
+//! A camera: one receiver where each viewing ray meets a surface.
+
+use antumbra_math::{DVec3, Rgb, Vec3, real};
+use antumbra_trace::NO_PRIM;
+
+use super::{Looking, Scratch, Seen, Sensor, Tile, grid};
+use crate::film::{Film, Planes};
+use crate::receiver::Receiver;
+use crate::sampler::{Use, stream};
+use crate::scene::{Camera, Projection};
+
+/// Sides of a tile: enough rays for a batch, small enough to keep all cores busy.
+const TILE: [u32; 2] = [32, 32];
+
+/// Where in the pixel viewing rays pass.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Viewing {
+    /// Over the pixel filter.
+    #[default]
+    Filter,
+    /// All through the centre.
+    Centre,
+}
+
+/// The pixel filter; sampled, so that weights stay 1 and a sample touches one pixel.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Filter {
+    /// Blackman–Harris window, radius 1.5 pixels.
+    #[default]
+    BlackmanHarris,
+    /// The pixel's square.
+    Box,
+    /// Triangle, radius 1 pixel.
+    Tent,
+    /// Gaussian, σ = 0.5 pixels, cut at 2.
+    Gaussian,
+}
+
+/// What of the scene is asked for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct View {
+    /// Size of the whole picture.
+    pub size: [u32; 2],
+    /// The part to render: x, y, width, height.
+    pub crop: [u32; 4],
+    /// Where in the pixel.
+    pub viewing: Viewing,
+    /// The pixel filter.
+    pub filter: Filter,
+}
+
+/// A camera as a sensor.
+pub struct CameraSensor {
+    eye: DVec3,
+    right: DVec3,
+    up: DVec3,
+    forward: DVec3,
+    /// Half the height of the picture at distance 1 (perspective) or in scene units (orthographic).
+    half_height: f64,
+    parallel: bool,
+    view: View,
+    cdf: Vec<f32>,
+}
+
+impl CameraSensor {
+    /// Looks at the scene with `camera`.
+    pub fn new(camera: &Camera, view: View) -> CameraSensor {
+        let forward = (camera.look_at - camera.eye).normalize();
+        let right = forward.cross(camera.up).normalize();
+        let (half_height, parallel) = match camera.projection {
+            Projection::Perspective { vertical_fov } => (real::tan(vertical_fov / 2.0), false),
+            Projection::Orthographic { height } => (height / 2.0, true),
+        };
+        let cdf = filter_cdf(view.filter);
+        CameraSensor {
+            eye: camera.eye,
+            right,
+            up: right.cross(forward),
+            forward,
+            half_height,
+            parallel,
+            view,
+            cdf,
+        }
+    }
+
+    /// Origin and unit direction of the viewing ray through (x, y) in pixels of the whole picture.
+    pub fn ray(&self, x: f64, y: f64) -> (Vec3, Vec3) {
+        let [w, h] = self.view.size.map(f64::from);
+        let right = (2.0 * x / w - 1.0) * self.half_height * (w / h);
+        let up = (1.0 - 2.0 * y / h) * self.half_height;
+        let across = self.right * right + self.up * up;
+        if self.parallel {
+            ((self.eye + across).as_vec3(), self.forward.as_vec3())
+        } else {
+            (self.eye.as_vec3(), (self.forward + across).normalize().as_vec3())
+        }
+    }
+
+    /// Offset from the pixel's centre for two numbers in [0, 1).
+    fn offset(&self, u: [f32; 2]) -> [f64; 2] {
+        match self.view.viewing {
+            Viewing::Centre => [0.0; 2],
+            Viewing::Filter => {
+                u.map(|u| f64::from(sample_cdf(&self.cdf, u)) * filter_radius(self.view.filter))
+            }
+        }
+    }
+}
+
+impl Sensor for CameraSensor {
+    fn receivers(
+        &self,
+        looking: &Looking<'_>,
+        tile: Tile,
+        pass: u32,
+        scratch: &mut Scratch,
+        film: &mut Film,
+        out: &mut Vec<Receiver>,
+    ) {
+        let (replicate, index, of) = looking.passes.locate(pass);
+        let pixel_of = |cell: u32| {
+            [self.view.crop[0] + tile.x + cell % tile.width, self.view.crop[1] + tile.y + cell / tile.width]
+        };
+        // Numbers belong to the pixel of the whole picture: a crop shows the same noise.
+        let stream_of = |[x, y]: [u32; 2]| stream(looking.seed, y * self.view.size[0] + x, replicate);
+        scratch.rays.clear();
+        for cell in 0..tile.cells() {
+            let pixel = pixel_of(cell);
+            let stream = stream_of(pixel);
+            let offset = self.offset(looking.sampler.pair(stream, index, of, Use::Pixel.at(0)));
+            let (o, d) =
+                self.ray(f64::from(pixel[0]) + 0.5 + offset[0], f64::from(pixel[1]) + 0.5 + offset[1]);
+            let number = stream ^ index.wrapping_mul(0x9e37_79b9);
+            scratch.rays.push_ray(o.to_array(), d.to_array(), f32::INFINITY, NO_PRIM, number);
+        }
+        looking.visibility.nearest(scratch.rays.as_segments(), &mut scratch.hits);
+        let rays = scratch.rays.as_segments();
+        for cell in 0..tile.cells() {
+            let i = cell as usize;
+            let (o, d) = (Vec3::from(rays.origin_at(i)), Vec3::from(rays.end_at(i)));
+            let hits = &scratch.hits;
+            if hits.prim[i] == NO_PRIM {
+                note_sky(film, looking, cell, d);
+                continue;
+            }
+            let met = looking.scene.meet(o, d, hits.t[i], hits.prim[i], hits.uv[i], &looking.look);
+            if let (Some((_, radiance)), Seen::Light) = (met.emitted, looking.seen) {
+                note_light(film, cell, radiance);
+            }
+            let receiver = Receiver { cell, stream: stream_of(pixel_of(cell)), index, ..met.receiver };
+            note_surface(film, &receiver, hits.t[i] as f32);
+            out.push(receiver);
+        }
+    }
+
+    fn size(&self) -> [u32; 2] {
+        [self.view.crop[2], self.view.crop[3]]
+    }
+
+    fn tiles(&self) -> Vec<Tile> {
+        grid(self.size(), TILE)
+    }
+}
+
+/// Where nothing is: light from infinity, or openness.
+fn note_sky(film: &mut Film, looking: &Looking<'_>, cell: u32, d: Vec3) {
+    match looking.seen {
+        Seen::Open => film.add(Planes::BEAUTY, cell, Rgb::WHITE),
+        Seen::Light => {
+            looking.scene.from_infinity(d).for_each(|(_, radiance)| note_light(film, cell, radiance))
+        }
+    }
+}
+
+fn note_light(film: &mut Film, cell: u32, radiance: Rgb) {
+    film.add(Planes::BEAUTY, cell, radiance);
+    film.add(Planes::EMISSION, cell, radiance);
+}
+
+/// What is seen, for the planes that want it.
+fn note_surface(film: &mut Film, at: &Receiver, depth: f32) {
+    let of = |v: Vec3| Rgb(v.to_array());
+    film.add(Planes::ALBEDO, at.cell, at.bsdf.albedo());
+    film.add(Planes::NORMAL, at.cell, of(at.frame.n));
+    film.add(Planes::POSITION, at.cell, of(at.p));
+    film.add(Planes::DEPTH, at.cell, Rgb::grey(depth));
+}
+
+/// Half width of a filter [pixels].
+fn filter_radius(filter: Filter) -> f64 {
+    match filter {
+        Filter::Box => 0.5,
+        Filter::Tent => 1.0,
+        Filter::BlackmanHarris => 1.5,
+        Filter::Gaussian => 2.0,
+    }
+}
+
+/// The filter's profile at x in [−1, 1] of its radius.
+fn filter_profile(filter: Filter, x: f64) -> f64 {
+    match filter {
+        Filter::Box => 1.0,
+        Filter::Tent => 1.0 - x.abs(),
+        // σ = 0.5 pixels = a quarter of the radius.
+        Filter::Gaussian => real::exp(-8.0 * x * x),
+        // F. Harris 1978, four terms, centred.
+        Filter::BlackmanHarris => {
+            let phase = std::f64::consts::PI * (x + 1.0);
+            0.35875 - 0.48829 * real::cos(phase) + 0.14128 * real::cos(2.0 * phase)
+                - 0.01168 * real::cos(3.0 * phase)
+        }
+    }
+}
+
+/// Running integral of the profile over [−1, 1], from 0 to 1.
+fn filter_cdf(filter: Filter) -> Vec<f32> {
+    const STEPS: usize = 256;
+    let mut sum = 0.0;
+    let mut cdf = vec![0.0];
+    for i in 0..STEPS {
+        sum += filter_profile(filter, (2.0 * i as f64 + 1.0) / STEPS as f64 - 1.0);
+        cdf.push(sum);
+    }
+    cdf.iter().map(|c| (c / sum) as f32).collect()
+}
+
+/// x in [−1, 1] with the profile's density: the inverse of the integral, linear in each step.
+fn sample_cdf(cdf: &[f32], u: f32) -> f32 {
+    let step = cdf.partition_point(|c| *c <= u).clamp(1, cdf.len() - 1);
+    let (low, high) = (cdf[step - 1], cdf[step]);
+    let within = if high > low { (u - low) / (high - low) } else { 0.5 };
+    (step as f32 - 1.0 + within.clamp(0.0, 1.0)) / (cdf.len() - 1) as f32 * 2.0 - 1.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sampled_filters_have_the_moments_of_their_profiles() {
+        for filter in [Filter::Box, Filter::Tent, Filter::Gaussian, Filter::BlackmanHarris] {
+            let cdf = filter_cdf(filter);
+            let n = 100_000;
+            let (mut mean, mut square) = (0.0, 0.0);
+            for i in 0..n {
+                let x = f64::from(sample_cdf(&cdf, (i as f32 + 0.5) / n as f32));
+                mean += x / f64::from(n);
+                square += x * x / f64::from(n);
+            }
+            let (mut weight, mut moment) = (0.0, 0.0);
+            for i in 0..n {
+                let x = (2.0 * f64::from(i) + 1.0) / f64::from(n) - 1.0;
+                weight += filter_profile(filter, x);
+                moment += filter_profile(filter, x) * x * x;
+            }
+            // 256 linear steps: second moment to 1/256² relative, plus f32 rounding.
+            assert!(
+                mean.abs() < 1e-4 && (square - moment / weight).abs() < 1e-4,
+                "{filter:?} {mean} {square}"
+            );
+        }
+    }
+
+    #[test]
+    fn the_middle_of_the_picture_is_where_the_camera_looks() {
+        let camera = Camera::perspective(DVec3::new(1.0, 2.0, 3.0), DVec3::new(0.0, 0.5, -1.0), 50.0);
+        let view =
+            View { size: [64, 48], crop: [0, 0, 64, 48], viewing: Viewing::Centre, filter: Filter::Box };
+        let (_, d) = CameraSensor::new(&camera, view).ray(32.0, 24.0);
+        let toward = (camera.look_at - camera.eye).normalize().as_vec3();
+        assert!((d - toward).length() < 1e-6);
+    }
+}

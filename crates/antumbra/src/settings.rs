@@ -1,0 +1,269 @@
+//! The one table of settings: name, type, default, range and help of each. Floor 6.
+//!
+//! Command line, Python and picture metadata are made from [`TABLE`]; [`Settings`] holds one value of each. A new
+//! setting is one entry of `settings!`.
+
+mod value;
+
+pub use value::{SettingValue, nearest};
+
+use crate::estimator::{Directions, EstimatorKind, Falloff, LightChoice, Mistake};
+use crate::film::Planes;
+use crate::light::LightPoints;
+use crate::sampler::{Pairing, SamplerKind};
+use crate::scene::Start;
+use crate::sensor::{Filter, Viewing};
+use value::choices;
+
+/// One entry of the table.
+#[derive(Clone, Copy, Debug)]
+pub struct Setting {
+    /// Its name in Rust and Python; the command line joins the words by `-`.
+    pub name: &'static str,
+    /// The group it stands in: Light, Camera, Sampling, Looks, Files, Teaching, Run.
+    pub group: &'static str,
+    /// The word for its values in help ("N", "NAME", "X,Y,Z").
+    pub metavar: &'static str,
+    /// The allowed words, if it is a choice.
+    pub choices: &'static [&'static str],
+    /// Its default, as people would write it; empty = none.
+    pub default: fn() -> String,
+    /// What it does, in one line.
+    pub help: &'static str,
+}
+
+/// A value that does not fit its setting.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{what}")]
+pub struct SettingError {
+    /// The setting, as it was written.
+    pub name: String,
+    /// What is wrong and what would be right, in one line.
+    pub what: String,
+}
+
+macro_rules! settings {
+    ($($group:literal { $($(#[doc = $help:literal])+ $name:ident: $ty:ty = $default:expr $(, $check:expr)?;)* })*) => {
+        /// A value for every setting.
+        #[derive(Clone, Debug, PartialEq)]
+        pub struct Settings {
+            $($($(#[doc = $help])+ pub $name: $ty,)*)*
+        }
+        impl Default for Settings {
+            fn default() -> Settings {
+                Settings { $($($name: $default,)*)* }
+            }
+        }
+        /// Every setting, in the order of the help.
+        pub const TABLE: &[Setting] = &[$($(Setting {
+            name: stringify!($name),
+            group: $group,
+            metavar: <$ty as SettingValue>::METAVAR,
+            choices: <$ty as SettingValue>::CHOICES,
+            default: || { let value: $ty = $default; value.show() },
+            help: concat!($($help),+),
+        },)*)*];
+        impl Settings {
+            /// Sets one by its name (words joined by `_` or `-`) from what a person wrote.
+            pub fn set(&mut self, name: &str, text: &str) -> Result<(), SettingError> {
+                let key = name.replace('-', "_");
+                match key.as_str() {
+                    $($(stringify!($name) => {
+                        let value = <$ty as SettingValue>::parse(text).map_err(|what| fault(name, text, what))?;
+                        $(let check: fn(&$ty) -> Result<(), String> = $check;
+                          check(&value).map_err(|what| fault(name, text, what))?;)?
+                        self.$name = value;
+                    })*)*
+                    _ => return Err(unknown(name)),
+                }
+                Ok(())
+            }
+            /// The value of each, as people would write it.
+            pub fn shown(&self) -> Vec<(&'static str, String)> {
+                vec![$($((stringify!($name), self.$name.show()),)*)*]
+            }
+        }
+    };
+}
+
+settings! {
+    "Light" {
+        /// how reflected light is written as an integral and sampled
+        estimator: EstimatorKind = EstimatorKind::Path;
+        /// shadow rays per receiver (and light, with `lights` = all)
+        shadow_rays: u32 = 1, |n| at_least_one(*n, "use shadows = off to leave shadows out");
+        /// longest path: 0 = emission only, 1 = direct light
+        bounces: u32 = 8, |n| within(*n as f64, 0.0, 1000.0);
+        /// every light, or one chosen per shadow ray; auto: all up to 4 lights, else the best chooser
+        lights: LightChoice = LightChoice::Auto;
+        /// keep only the light of this name (may be repeated)
+        light: Vec<String> = Vec::new();
+        /// how a point on a light is drawn: uniform in solid angle, or on its area (pdf = 1/A)
+        light_points: LightPoints = LightPoints::SolidAngle;
+        /// how hemisphere directions are drawn
+        directions: Directions = Directions::Bsdf;
+        /// Russian roulette on long paths
+        roulette: bool = true;
+        /// ambient occlusion: occluders beyond this distance do not count
+        radius: f32 = f32::INFINITY, |r| positive(*r);
+        /// ambient occlusion: weight of an occluder at distance t: none, (1-t/R) or (1-t/R)²
+        falloff: Falloff = Falloff::None;
+    }
+    "Camera" {
+        /// the file's camera of this name
+        camera: Option<String> = None;
+        /// stand here
+        eye: Option<[f64; 3]> = None;
+        /// look at this point
+        look_at: Option<[f64; 3]> = None;
+        /// this way is up in the picture
+        up: Option<[f64; 3]> = None;
+        /// vertical angle of view in degrees
+        fov: Option<f64> = None, |f| f.map_or(Ok(()), |f| within(f, 1e-9, 179.9));
+        /// width x height of the picture in pixels
+        size: Option<[u32; 2]> = None, |s| s.map_or(Ok(()), picture_size);
+        /// render only this part of the picture: x,y of its upper left pixel, width, height
+        crop: Option<[u32; 4]> = None;
+    }
+    "Sampling" {
+        /// viewing rays per pixel
+        viewing_rays: u32 = 16, |n| at_least_one(*n, "one viewing ray sees something");
+        /// where the random numbers come from
+        sampler: SamplerKind = SamplerKind::Owen;
+        /// shift the regular sampler's grid by a random offset per receiver
+        rotate: bool = false;
+        /// pixel and light point from one 4-D point, or from padded 2-D ones
+        pairing: Pairing = Pairing::FourD;
+        /// viewing rays over the pixel filter, or all through the pixel's centre
+        viewing: Viewing = Viewing::Filter;
+        /// pixel filter
+        filter: Filter = Filter::BlackmanHarris;
+        /// another seed, another noise
+        seed: u32 = 0;
+    }
+    "Looks" {
+        /// brighten a PNG by this many stops
+        exposure: f32 = 0.0, |e| within(f64::from(*e), -100.0, 100.0);
+        /// tone curve of a PNG
+        tone: Tone = Tone::Linear;
+        /// every surface two-sided diffuse with this reflectance
+        clay: Option<f32> = None, |c| c.map_or(Ok(()), |c| within(f64::from(c), 0.0, 1.0));
+        /// light from all around: a lat-long picture, sky, or none (default: the scene's own)
+        environment: Option<String> = None;
+        /// alpha masks: as the file says, or opaque
+        masks: Masks = Masks::File;
+        /// pictures beside the main one, by name, joined by commas (EXR)
+        aov: Planes = Planes::NONE;
+    }
+    "Teaching" {
+        /// off: nothing blocks
+        shadows: bool = true;
+        /// none: segments start at the surface; epsilon:E: a fixed distance E above it; safe: the exact start
+        self_intersection: Start = Start::Safe;
+        /// off: what lies behind a light shadows it too
+        distance_test: bool = true;
+        /// wrong on purpose
+        mistake: Mistake = Mistake::None;
+    }
+    "Run" {
+        /// threads; 0 = all cores
+        threads: u32 = 0, |n| within(f64::from(*n), 0.0, 1024.0);
+    }
+}
+
+/// How radiance becomes the code values of a PNG.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Tone {
+    /// sRGB encoding, clipped at 1.
+    #[default]
+    Linear,
+    /// A film-like shoulder before the sRGB encoding.
+    Filmic,
+}
+
+/// What alpha masks do.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Masks {
+    /// As the file says.
+    #[default]
+    File,
+    /// They block everywhere.
+    Opaque,
+}
+
+choices!(EstimatorKind: Path "path", Area "area", Hemisphere "hemisphere", Surfaces "surfaces", Mis "mis",
+    PathHemisphere "path-hemisphere", AmbientOcclusion "ambient-occlusion");
+choices!(LightChoice: Auto "auto", All "all", Uniform "uniform", Power "power", Contribution "contribution");
+choices!(LightPoints: SolidAngle "solid-angle", Area "area");
+choices!(Directions: Bsdf "bsdf", Cosine "cosine", Uniform "uniform");
+choices!(Falloff: None "none", Linear "linear", Quadratic "quadratic");
+choices!(SamplerKind: Owen "owen", Random "random", Stratified "stratified", Regular "regular");
+choices!(Pairing: FourD "4d", TwoD "2d");
+choices!(Viewing: Filter "filter", Centre "centre");
+choices!(Filter: BlackmanHarris "blackman-harris", Box "box", Tent "tent", Gaussian "gaussian");
+choices!(Tone: Linear "linear", Filmic "filmic");
+choices!(Masks: File "file", Opaque "opaque");
+choices!(Mistake: None "none", NoCosLight "no-cos-light", NoDistance "no-distance", WrongMeasure "wrong-measure",
+    CountedTwice "counted-twice", NoCount "no-count");
+
+fn fault(name: &str, text: &str, what: String) -> SettingError {
+    let what = what.replace("{}", text);
+    SettingError { name: name.into(), what: format!("{name} {text}: {what}") }
+}
+
+fn unknown(name: &str) -> SettingError {
+    let known: Vec<&str> = TABLE.iter().map(|s| s.name).collect();
+    let hint = nearest(&name.replace('-', "_"), &known).map(|n| format!("; did you mean \"{n}\"?"));
+    SettingError {
+        name: name.into(),
+        what: format!("there is no setting \"{name}\"{}", hint.unwrap_or_default()),
+    }
+}
+
+fn at_least_one(n: u32, otherwise: &str) -> Result<(), String> {
+    if n == 0 { Err(format!("at least 1 is needed ({otherwise})")) } else { Ok(()) }
+}
+
+fn positive(x: f32) -> Result<(), String> {
+    if x > 0.0 { Ok(()) } else { Err("a number above 0 is needed".into()) }
+}
+
+fn within(x: f64, low: f64, high: f64) -> Result<(), String> {
+    if (low..=high).contains(&x) { Ok(()) } else { Err(format!("a number from {low} to {high} is needed")) }
+}
+
+fn picture_size([w, h]: [u32; 2]) -> Result<(), String> {
+    const MOST: u64 = 1 << 28;
+    match u64::from(w) * u64::from(h) {
+        0 => Err("both sides must be at least 1 pixel".into()),
+        n if n > MOST => Err(format!("a picture has at most {MOST} pixels")),
+        _ => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_default_parses_back_to_itself() {
+        let mut settings = Settings::default();
+        for setting in TABLE {
+            let text = (setting.default)();
+            if !text.is_empty() {
+                settings.set(setting.name, &text).unwrap();
+            }
+        }
+        assert_eq!(settings, Settings::default());
+    }
+
+    #[test]
+    fn wrong_names_get_the_nearest_right_one() {
+        let error = Settings::default().set("shadow-ray", "4").unwrap_err();
+        assert!(error.what.contains("shadow_rays"), "{error}");
+        let error = Settings::default().set("estimator", "arae").unwrap_err();
+        assert!(error.what.contains("did you mean \"area\"?"), "{error}");
+        let error = Settings::default().set("shadow_rays", "0").unwrap_err();
+        assert!(error.what.contains("at least 1"), "{error}");
+    }
+}

@@ -1,0 +1,216 @@
+//! How a setting's value is read from what a person wrote, and written back.
+
+use crate::film::Planes;
+use crate::scene::Start;
+
+/// A type that settings can have.
+pub trait SettingValue: Sized {
+    /// The word for its values in help.
+    const METAVAR: &'static str;
+    /// The allowed words, if it is a choice.
+    const CHOICES: &'static [&'static str] = &[];
+    /// Reads it; the error says what would be right.
+    fn parse(text: &str) -> Result<Self, String>;
+    /// Writes it so that `parse` reads it back; empty = none.
+    fn show(&self) -> String;
+}
+
+/// Makes an enum a setting: each variant with its word.
+macro_rules! choices {
+    ($ty:ident: $($variant:ident $word:literal),+ $(,)?) => {
+        impl SettingValue for $ty {
+            const METAVAR: &'static str = "NAME";
+            const CHOICES: &'static [&'static str] = &[$($word),+];
+            fn parse(text: &str) -> Result<Self, String> {
+                match text {
+                    $($word => Ok($ty::$variant),)+
+                    _ => Err(crate::settings::value::no_such_word(text, Self::CHOICES)),
+                }
+            }
+            fn show(&self) -> String {
+                match self { $($ty::$variant => $word,)+ }.into()
+            }
+        }
+    };
+}
+pub(super) use choices;
+
+/// "there is no …; did you mean …? (…)".
+pub(super) fn no_such_word(text: &str, words: &[&str]) -> String {
+    let hint = nearest(text, words).map(|w| format!("; did you mean \"{w}\"?")).unwrap_or_default();
+    format!("there is no \"{text}\"{hint} ({})", words.join(", "))
+}
+
+/// The known word nearest to `text`, if one is near (edit distance at most a third of its length, and at most 3).
+pub fn nearest<'a>(text: &str, known: &[&'a str]) -> Option<&'a str> {
+    let distance = |word: &str| {
+        let (a, b): (Vec<char>, Vec<char>) = (text.to_lowercase().chars().collect(), word.chars().collect());
+        let mut row: Vec<usize> = (0..=b.len()).collect();
+        let mut above_left_row = row.clone();
+        for i in 1..=a.len() {
+            let before = row.clone();
+            row[0] = i;
+            for j in 1..=b.len() {
+                let change = usize::from(a[i - 1] != b[j - 1]);
+                row[j] = (before[j] + 1).min(row[j - 1] + 1).min(before[j - 1] + change);
+                let swapped = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
+                if swapped {
+                    row[j] = row[j].min(above_left_row[j - 2] + 1);
+                }
+            }
+            above_left_row = before;
+        }
+        row[b.len()]
+    };
+    known
+        .iter()
+        .map(|word| (distance(word), *word))
+        .filter(|(d, word)| *d <= 3.min(1 + word.len() / 3))
+        .min_by_key(|(d, _)| *d)
+        .map(|(_, word)| word)
+}
+
+macro_rules! numbers {
+    ($($ty:ty, $metavar:literal, $what:literal;)*) => {$(
+        impl SettingValue for $ty {
+            const METAVAR: &'static str = $metavar;
+            fn parse(text: &str) -> Result<Self, String> {
+                text.trim().parse().map_err(|_| concat!($what, " is needed").to_string())
+            }
+            fn show(&self) -> String {
+                self.to_string()
+            }
+        }
+    )*};
+}
+numbers!(u32, "N", "a whole number (0 or more)"; f32, "X", "a number"; f64, "X", "a number";);
+
+impl SettingValue for bool {
+    const METAVAR: &'static str = "NAME";
+    const CHOICES: &'static [&'static str] = &["on", "off"];
+    fn parse(text: &str) -> Result<Self, String> {
+        match text.to_lowercase().as_str() {
+            "on" | "true" | "yes" | "1" => Ok(true),
+            "off" | "false" | "no" | "0" => Ok(false),
+            _ => Err("on or off is needed".into()),
+        }
+    }
+    fn show(&self) -> String {
+        if *self { "on" } else { "off" }.into()
+    }
+}
+
+impl SettingValue for String {
+    const METAVAR: &'static str = "NAME";
+    fn parse(text: &str) -> Result<Self, String> {
+        Ok(text.into())
+    }
+    fn show(&self) -> String {
+        self.clone()
+    }
+}
+
+/// Several names, one a line (names in files may hold commas).
+impl SettingValue for Vec<String> {
+    const METAVAR: &'static str = "NAME";
+    fn parse(text: &str) -> Result<Self, String> {
+        Ok(text.lines().map(String::from).collect())
+    }
+    fn show(&self) -> String {
+        self.join("\n")
+    }
+}
+
+impl<T: SettingValue> SettingValue for Option<T> {
+    const METAVAR: &'static str = T::METAVAR;
+    const CHOICES: &'static [&'static str] = T::CHOICES;
+    fn parse(text: &str) -> Result<Self, String> {
+        if text.is_empty() { Ok(None) } else { T::parse(text).map(Some) }
+    }
+    fn show(&self) -> String {
+        self.as_ref().map(T::show).unwrap_or_default()
+    }
+}
+
+/// `n` numbers between separators, as an array.
+fn numbers<T: std::str::FromStr, const N: usize>(text: &str, separators: &[char]) -> Option<[T; N]> {
+    let parsed: Result<Vec<T>, _> = text.split(separators).map(|part| part.trim().parse::<T>()).collect();
+    parsed.ok()?.try_into().ok()
+}
+
+impl SettingValue for [f64; 3] {
+    const METAVAR: &'static str = "X,Y,Z";
+    fn parse(text: &str) -> Result<Self, String> {
+        numbers(text, &[','])
+            .filter(|v: &[f64; 3]| v.iter().all(|c| c.is_finite()))
+            .ok_or_else(|| "three numbers joined by commas are needed, as 1,2.5,0".into())
+    }
+    fn show(&self) -> String {
+        format!("{},{},{}", self[0], self[1], self[2])
+    }
+}
+
+impl SettingValue for [u32; 2] {
+    const METAVAR: &'static str = "WxH";
+    fn parse(text: &str) -> Result<Self, String> {
+        numbers(text, &['x', '×', ',']).ok_or_else(|| "width x height is needed, as 640x480".into())
+    }
+    fn show(&self) -> String {
+        format!("{}x{}", self[0], self[1])
+    }
+}
+
+impl SettingValue for [u32; 4] {
+    const METAVAR: &'static str = "X,Y,W,H";
+    fn parse(text: &str) -> Result<Self, String> {
+        numbers(text, &[','])
+            .filter(|c: &[u32; 4]| c[2] > 0 && c[3] > 0)
+            .ok_or_else(|| "x,y,width,height in whole pixels are needed, as 100,80,64,64".into())
+    }
+    fn show(&self) -> String {
+        format!("{},{},{},{}", self[0], self[1], self[2], self[3])
+    }
+}
+
+impl SettingValue for Start {
+    const METAVAR: &'static str = "safe|none|epsilon:E";
+    fn parse(text: &str) -> Result<Self, String> {
+        match text.split_once(':') {
+            None if text == "safe" => Ok(Start::Safe),
+            None if text == "none" => Ok(Start::None),
+            Some(("epsilon", e)) => {
+                let e: Option<f32> = e.parse().ok().filter(|e: &f32| e.is_finite() && *e >= 0.0);
+                e.map(Start::Epsilon).ok_or_else(|| "epsilon:E needs a length, as epsilon:1e-4".into())
+            }
+            _ => Err("safe, none or epsilon:E is needed, as epsilon:1e-4".into()),
+        }
+    }
+    fn show(&self) -> String {
+        match self {
+            Start::Safe => "safe".into(),
+            Start::None => "none".into(),
+            Start::Epsilon(e) => format!("epsilon:{e}"),
+        }
+    }
+}
+
+impl SettingValue for Planes {
+    const METAVAR: &'static str = "LIST";
+    fn parse(text: &str) -> Result<Self, String> {
+        let mut planes = Planes::NONE;
+        for word in text.split(',').map(str::trim).filter(|w| !w.is_empty()) {
+            match word {
+                "all" => planes = planes.union(Planes::ALL),
+                "none" => {}
+                _ => match Planes::by_name(word) {
+                    Some(plane) => planes = planes.union(plane),
+                    None => return Err(no_such_word(word, &Planes::names())),
+                },
+            }
+        }
+        Ok(planes)
+    }
+    fn show(&self) -> String {
+        self.list().join(",")
+    }
+}
