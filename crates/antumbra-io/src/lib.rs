@@ -15,3 +15,5 @@ pub use files::{FileError, Files, FolderFiles, MemoryFiles};
 pub use format::{Format, READS, format_of};
 pub use limits::Limits;
 pub use read::{ReadOptions, UpAxis, read, read_path};
+/// stub
+pub fn read_environment(_: &std::path::Path, _: &ReadOptions) -> Result<(antumbra::light::Environment, Vec<antumbra::scene::Message>), ReadError> { Err(ReadError::new("", "x")) }

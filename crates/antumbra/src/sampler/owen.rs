@@ -24,26 +24,36 @@ impl Sampler for Owen {
     #[inline]
     fn pair(&self, stream: u32, index: u32, _of: u32, dimension: Dimension) -> [f32; 2] {
         let key = hash::hash2(stream, dimension.0);
-        let four_d = if self.pairing == Pairing::FourD { dimension.four_d_half() } else { None };
-        // Dimensions 0 and 1 of the sequence, or 2 and 3 for the second half of the 4-D point; the halves share the
-        // shuffled index.
-        let (first, shuffle) = match four_d {
-            Some(half) => (2 * half, hash::hash2(stream, 0x4d)),
-            None => (0, key),
-        };
-        let index = scramble(index.reverse_bits(), shuffle);
-        let coordinate = |d: u32, key: u32| {
-            let point = sobol_reversed(index.reverse_bits(), first + d);
-            unit(scramble(point, hash::mix32(key ^ d.wrapping_mul(0x9e37_79b9))).reverse_bits())
-        };
-        [coordinate(0, key), coordinate(1, key)]
+        let half = if self.pairing == Pairing::FourD { dimension.four_d_half() } else { None };
+        // The halves of a 4-D point share the shuffled index; every other pair has its own.
+        let shuffle = if half.is_some() { hash::hash2(stream, 0x4d) } else { key };
+        let index = scramble(index.reverse_bits(), shuffle).reverse_bits();
+        let index = if half == Some(1) { second_half(index) } else { index };
+        // Reversed, the first coordinate (van der Corput) is the index itself.
+        let x = scramble(index, hash::mix32(key)).reverse_bits();
+        let y = scramble(sobol_reversed(index), hash::mix32(key ^ 0x9e37_79b9)).reverse_bits();
+        [hash::unit_f32(x), hash::unit_f32(y)]
     }
 }
 
-/// The number in [0, 1) that 32 bits spell, rounded down to the 24 that f32 has.
+/// The index of the second pair of a 4-D point: each byte through an invertible upper triangular matrix over GF(2), so
+/// that it stays a (0, 2)-sequence by itself. The matrix was searched so that of each 16 points one lies in each of the
+/// 2⁴ cells of the 4-D cube, and of each 256 one in each of the 4⁴ (docs/decisions/0003).
 #[inline]
-fn unit(bits: u32) -> f32 {
-    hash::unit_f32(bits)
+fn second_half(index: u32) -> u32 {
+    const COLUMNS: [u32; 8] = columns([0x5b, 0x72, 0xec, 0x18, 0x90, 0x60, 0xc0, 0x80]);
+    COLUMNS.iter().enumerate().fold(0, |x, (bit, column)| x ^ ((index >> bit) & 0x0101_0101) * column)
+}
+
+/// Columns of a matrix given by its rows.
+const fn columns(rows: [u32; 8]) -> [u32; 8] {
+    let mut columns = [0; 8];
+    let mut i = 0;
+    while i < 64 {
+        columns[i % 8] |= ((rows[i / 8] >> (i % 8)) & 1) << (i / 8);
+        i += 1;
+    }
+    columns
 }
 
 /// Nested uniform (Owen) scramble of a bit-reversed number (Burley 2020, §2, with the constants of N. Vegdahl's
@@ -58,51 +68,25 @@ fn scramble(mut x: u32, key: u32) -> u32 {
     x
 }
 
-/// Coordinate `d` (0…3) of Sobol point `index`, bit-reversed: bit k of the result is bit 31−k of the coordinate.
+/// The second coordinate of Sobol point `index`, bit-reversed.
 #[inline]
-fn sobol_reversed(index: u32, d: u32) -> u32 {
-    if d == 0 {
-        return index; // Van der Corput: the reversed index, reversed again.
-    }
-    let matrix = &DIRECTIONS[d as usize - 1];
+fn sobol_reversed(index: u32) -> u32 {
     let mut x = 0;
     let mut rest = index;
     while rest != 0 {
-        x ^= matrix[rest.trailing_zeros() as usize];
+        x ^= PASCAL[rest.trailing_zeros() as usize];
         rest &= rest - 1;
     }
     x
 }
 
-/// Bit-reversed direction numbers of dimensions 1, 2, 3 (S. Joe & F. Kuo 2008: primitive polynomials x+1, x²+x+1,
-/// x³+x+1 with initial numbers {1}, {1, 3}, {1, 3, 1}).
-static DIRECTIONS: [[u32; 32]; 3] =
-    [directions(1, 0, &[1]), directions(2, 1, &[1, 3]), directions(3, 1, &[1, 3, 1])];
-
-/// The recurrence of Joe & Kuo for degree `s`, coefficients `a`, initial numbers `m`.
-const fn directions(s: usize, a: u32, m: &[u32]) -> [u32; 32] {
-    let mut v = [0u32; 32];
-    let mut i = 0;
+/// Bit-reversed direction numbers of the second dimension (primitive polynomial x + 1): v_i = v_{i−1} ⊕ v_{i−1}/2.
+static PASCAL: [u32; 32] = {
+    let mut v = [1u32; 32];
+    let mut i = 1;
     while i < 32 {
-        if i < s {
-            v[i] = m[i] << (31 - i);
-        } else {
-            v[i] = v[i - s] ^ (v[i - s] >> s);
-            let mut k = 1;
-            while k < s {
-                if (a >> (s - 1 - k)) & 1 == 1 {
-                    v[i] ^= v[i - k];
-                }
-                k += 1;
-            }
-        }
+        v[i] = v[i - 1] ^ (v[i - 1] << 1);
         i += 1;
     }
-    let mut r = [0u32; 32];
-    let mut i = 0;
-    while i < 32 {
-        r[i] = v[i].reverse_bits();
-        i += 1;
-    }
-    r
-}
+    v
+};

@@ -65,22 +65,27 @@ fn strata_are_met_once() {
     }
 }
 
-/// Owen points in 4-D: of 256 points, each of the 4⁴ cells of side 1/4 is met once on average, and the two halves are
-/// not the same point (no diagonal).
+/// Owen points in 4-D: of 256 points one lies in each of the 4⁴ cells of side 1/4, of 16 one in each of 2⁴; and each
+/// half alone is met once in every elementary interval.
 #[test]
-fn the_four_d_point_is_no_diagonal() {
+fn the_four_d_point_fills_four_dimensions() {
     let options = SamplerOptions { seed: 0, pairing: Pairing::FourD, rotate: false };
     let sampler = AnySampler::new(SamplerKind::Owen, options);
-    let mut count = [0u32; 256];
-    for i in 0..256 {
-        let a = sampler.pair(99, i, 256, Use::Pixel.at(0));
-        let b = sampler.pair(99, i, 256, Use::LightPoint.at(0));
-        let cell = [a[0], a[1], b[0], b[1]].iter().fold(0, |c, v| c * 4 + (v * 4.0) as usize);
-        count[cell] += 1;
+    for s in 0..20 {
+        for (n, side) in [(16u32, 2.0f32), (256, 4.0)] {
+            let mut count = vec![0; n as usize];
+            for i in 0..n {
+                let a = sampler.pair(s, i, n, Use::Pixel.at(0));
+                let b = sampler.pair(s, i, n, Use::LightPoint.at(0));
+                let cell =
+                    [a[0], a[1], b[0], b[1]].iter().fold(0, |c, v| c * side as usize + (v * side) as usize);
+                count[cell] += 1;
+            }
+            assert!(count.iter().all(|c| *c == 1), "{n}");
+        }
+        let points: Vec<_> = (0..64).map(|i| sampler.pair(s, i, 64, Use::LightPoint.at(0))).collect();
+        (0..=6).for_each(|k| assert_eq!(cells_met_once(&points, 1 << k, 64 >> k), 64));
     }
-    let empty = count.iter().filter(|c| **c == 0).count();
-    // Independent points would leave 256/e = 94 cells empty (σ ≈ 7); Sobol with t = 3 at most about half.
-    assert!(empty < 80, "{empty}");
 }
 
 /// Variance of the mean of `f` over independent streams.
