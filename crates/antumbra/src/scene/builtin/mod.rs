@@ -1,6 +1,27 @@
 //! The built-in scenes. To add one: a file here and a line in [`SCENES`].
 
-use super::SceneBuilder;
+mod antumbra;
+mod cornell_box;
+mod corner;
+mod eclipse;
+mod hall;
+mod interior;
+mod many_lights;
+mod noise;
+mod pillars;
+mod plane_and_cylinder;
+mod scan;
+mod sky;
+mod sky_dome;
+pub mod solids;
+mod terrain;
+#[cfg(test)]
+mod tests;
+
+pub use sky::default_sky;
+pub use sky_dome::under;
+
+use super::{SceneBuilder, SceneError};
 
 /// A number that people may set with `-D name=value`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -13,6 +34,8 @@ pub struct Parameter {
     pub low: f64,
     /// Largest value.
     pub high: f64,
+    /// Only whole numbers.
+    pub whole: bool,
     /// What it means, with its unit.
     pub help: &'static str,
 }
@@ -42,4 +65,89 @@ impl Values {
 }
 
 /// All built-in scenes, in the order in which people meet them.
-pub const SCENES: &[Builtin] = &[];
+pub const SCENES: &[Builtin] = &[
+    cornell_box::SCENE,
+    pillars::SCENE,
+    antumbra::SCENE,
+    plane_and_cylinder::SCENE,
+    corner::SCENE,
+    sky_dome::SCENE,
+    many_lights::SCENE,
+    eclipse::SCENE,
+    terrain::SCENE,
+    interior::SCENE,
+    hall::SCENE,
+    scan::SCENE,
+];
+
+/// The built-in scene of this name.
+pub fn find(name: &str) -> Result<&'static Builtin, SceneError> {
+    let names = SCENES.iter().map(|s| s.name);
+    SCENES.iter().find(|s| s.name == name).ok_or_else(|| {
+        let guess = did_you_mean(name, names.clone());
+        let all = names.collect::<Vec<_>>().join(", ");
+        SceneError::new("", format!("there is no built-in scene \"{name}\"{guess}"), format!("There are: {all}."))
+    })
+}
+
+/// Makes the built-in scene `name`, with the parameters that are `set` (`_` stands for `-`; the last of a name counts).
+pub fn build(name: &str, set: &[(String, f64)]) -> Result<SceneBuilder, SceneError> {
+    let scene = find(name)?;
+    let mut values = Values(scene.parameters.iter().map(|p| (p.name, p.default)).collect());
+    for (key, value) in set {
+        let at = parameter(scene, &key.replace('_', "-"))?;
+        check(scene, &scene.parameters[at], *value)?;
+        values.0[at].1 = *value;
+    }
+    Ok((scene.build)(&values))
+}
+
+/// Index of the parameter called `key`.
+fn parameter(scene: &Builtin, key: &str) -> Result<usize, SceneError> {
+    let names = scene.parameters.iter().map(|p| p.name);
+    names.clone().position(|n| n == key).ok_or_else(|| {
+        let guess = did_you_mean(key, names.clone());
+        let hint = match names.collect::<Vec<_>>().join(", ") {
+            all if all.is_empty() => "It has none.".into(),
+            all => format!("There are: {all}."),
+        };
+        SceneError::new(scene.name, format!("there is no parameter \"{key}\"{guess}"), hint)
+    })
+}
+
+/// The value is one that the scene can be made with.
+fn check(scene: &Builtin, of: &Parameter, value: f64) -> Result<(), SceneError> {
+    let Parameter { name, low, high, help, .. } = of;
+    let wrong = |what: String| Err(SceneError::new(scene.name, what, format!("{name}: {help}.")));
+    if !(*low..=*high).contains(&value) {
+        return wrong(format!("{name} = {value} is outside {low} … {high}"));
+    }
+    if of.whole && value.fract() != 0.0 {
+        return wrong(format!("{name} = {value} is not a whole number"));
+    }
+    Ok(())
+}
+
+/// "; did you mean …?" if one of the names is near.
+fn did_you_mean<'a>(name: &str, names: impl Iterator<Item = &'a str>) -> String {
+    let nearest = names.map(|n| (edits(name, n), n)).min();
+    match nearest {
+        Some((edits, guess)) if edits <= 1 + guess.len() / 3 => format!("; did you mean \"{guess}\"?"),
+        _ => String::new(),
+    }
+}
+
+/// How many letters must be changed, put in or left out to make `b` of `a` (Levenshtein's distance).
+fn edits(a: &str, b: &str) -> usize {
+    let mut row: Vec<usize> = (0..=b.chars().count()).collect();
+    for (i, x) in a.chars().enumerate() {
+        let mut diagonal = row[0];
+        row[0] = i + 1;
+        for (j, y) in b.chars().enumerate() {
+            let change = diagonal + usize::from(x != y);
+            diagonal = row[j + 1];
+            row[j + 1] = change.min(diagonal + 1).min(row[j] + 1);
+        }
+    }
+    row[b.chars().count()]
+}

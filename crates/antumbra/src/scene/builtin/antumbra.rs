@@ -1,0 +1,76 @@
+//! Equal balls at five heights under a disk of light: the umbra shrinks, closes, and the antumbra opens.
+
+use antumbra_math::{DVec3, Rgb};
+use antumbra_trace::Shape;
+
+use super::solids::{joined, quad, sheet, single, turned};
+use super::{Builtin, Parameter, Values};
+use crate::light::{Disk, Rectangle};
+use crate::scene::{Camera, Material, SceneBuilder};
+
+pub(super) const SCENE: Builtin = Builtin {
+    name: "antumbra",
+    shows: "Equal balls at five heights under a disk of light: the umbra shrinks, closes, and the antumbra opens",
+    parameters: &[Parameter {
+        name: "light-radius",
+        default: 0.8,
+        low: 0.001,
+        high: 3.0,
+        whole: false,
+        help: "radius of the disk of light [m]; its power stays the same",
+    }],
+    build,
+};
+
+/// Radius of the balls [m].
+const BALL: f64 = 0.3;
+const COLORS: [Rgb; 5] = [
+    Rgb::new(0.72, 0.22, 0.14),
+    Rgb::new(0.80, 0.48, 0.16),
+    Rgb::new(0.78, 0.70, 0.42),
+    Rgb::new(0.24, 0.46, 0.42),
+    Rgb::new(0.15, 0.26, 0.45),
+];
+
+fn build(values: &Values) -> SceneBuilder {
+    let mut scene = SceneBuilder::new(SCENE.name);
+    let plaster = scene.material(Material::diffuse(Rgb::new(0.74, 0.72, 0.69)).named("plaster"));
+    let steel = scene.material(Material::diffuse(Rgb::grey(0.25)).named("rod"));
+    scene.object("floor and wall", joined([floor(), backdrop()]), plaster);
+
+    for (i, color) in COLORS.into_iter().enumerate() {
+        let height = BALL + 0.62 * i as f64;
+        let foot = DVec3::new(1.3 * (i as f64 - 2.0), 0.0, 0.35 * (i as f64 - 2.0));
+        let ball = scene.material(Material::diffuse(color));
+        let center = single(foot + DVec3::Y * height);
+        scene.shape("ball", Shape::Sphere { center, radius: BALL as f32 }, ball);
+        scene.shape("rod", Shape::Cylinder { p: single(foot), q: center, radius: 0.02 }, steel);
+    }
+
+    let radius = values.get("light-radius") as f32;
+    let center = DVec3::new(-3.5, 6.5, -4.0);
+    let normal = (DVec3::new(0.5, 0.0, 1.0) - center).normalize().as_vec3();
+    let warm = Rgb::new(1.0, 0.90, 0.74) * (170.0 / (radius * radius));
+    scene.light("key", Disk::new(center.as_vec3(), normal, radius, warm));
+    // A wide, weak second light from above keeps the umbra readable: cool, so that the two can be told apart.
+    let cool = Rgb::new(0.55, 0.75, 1.0) * 0.22;
+    let (corner, u, v) = (DVec3::new(-5.0, 9.0, -3.0), DVec3::X * 10.0, DVec3::Z * 8.0);
+    scene.light("fill", Rectangle::new(corner.as_vec3(), u.as_vec3(), v.as_vec3(), cool));
+
+    let eye = DVec3::new(1.2, 5.2, 11.0);
+    scene.cameras.push(Camera::perspective(eye, DVec3::new(0.45, 0.85, 0.6), 31.0).sized(800, 500));
+    scene
+}
+
+fn floor() -> antumbra_trace::Triangles {
+    quad(DVec3::new(-30.0, 0.0, 30.0), DVec3::X * 60.0, DVec3::Z * -36.0)
+}
+
+/// The floor bends up into a wall behind the balls.
+fn backdrop() -> antumbra_trace::Triangles {
+    sheet(1, 24, |u, v| {
+        let (c, s) = turned(v / 4.0);
+        let x = 60.0 * u - 30.0;
+        DVec3::new(x, 8.0 * (1.0 - c), -6.0 - 8.0 * s)
+    })
+}

@@ -1,0 +1,48 @@
+//! A small light between a plane and a cylinder.
+
+use antumbra_math::{DVec3, Rgb, World};
+use antumbra_trace::Shape;
+
+use super::solids::{quad, single};
+use super::{Builtin, Parameter, Values};
+use crate::light::Sphere;
+use crate::scene::{Camera, Material, SceneBuilder};
+
+pub(super) const SCENE: Builtin = Builtin {
+    name: "plane-and-cylinder",
+    shows: "A light between a plane and a cylinder: what lies behind the light must not shadow",
+    parameters: &[Parameter {
+        name: "plane",
+        default: -1.0,
+        low: -2.0,
+        high: 0.5,
+        whole: false,
+        help: "height of the plane [m]; the light is at 0, the cylinder above it; from 0.05 the plane hides the light",
+    }],
+    build,
+};
+
+/// Radius of the light [m].
+const LIGHT: f32 = 0.05;
+
+fn build(values: &Values) -> SceneBuilder {
+    let mut scene = SceneBuilder::new(SCENE.name);
+    let white = scene.material(Material::diffuse(Rgb::new(0.72, 0.70, 0.66)).named("white"));
+    let blue = scene.material(Material::diffuse(Rgb::new(0.25, 0.42, 0.60)).named("blue"));
+
+    let plane = values.get("plane");
+    scene.object("plane", quad(DVec3::new(-3.0, plane, 2.4), DVec3::X * 6.0, DVec3::Z * -4.8), white);
+
+    let (p, q, radius) = (DVec3::new(-1.5, 1.15, 0.0), DVec3::new(1.5, 1.15, 0.0), 0.45);
+    scene.shape("cylinder", Shape::Cylinder { p: single(p), q: single(q), radius }, blue);
+    for (center, out) in [(p, -DVec3::X), (q, DVec3::X)] {
+        scene.shape("lid", Shape::Disk { center: single(center), normal: single(out), radius }, blue);
+    }
+
+    // E = π L r² / d² below the light.
+    scene.light("light", Sphere::new(World::ZERO, LIGHT, Rgb::new(1.0, 0.92, 0.80) * 260.0));
+
+    let eye = DVec3::new(2.6, 2.2, 7.4);
+    scene.cameras.push(Camera::perspective(eye, DVec3::new(0.0, 0.05, 0.0), 33.0).sized(640, 480));
+    scene
+}
