@@ -3,7 +3,7 @@
 use antumbra_math::{DVec3, Rgb};
 use antumbra_trace::Shape;
 
-use super::solids::{joined, quad, sheet, single, turned};
+use super::solids::{quad, single};
 use super::{Builtin, Parameter, Values};
 use crate::light::{Disk, Rectangle};
 use crate::scene::{Camera, Material, SceneBuilder};
@@ -13,7 +13,7 @@ pub(super) const SCENE: Builtin = Builtin {
     shows: "Equal balls at five heights under a disk of light: the umbra shrinks, closes, and the antumbra opens",
     parameters: &[Parameter {
         name: "light-radius",
-        default: 0.8,
+        default: 1.3,
         low: 0.001,
         high: 3.0,
         whole: false,
@@ -36,11 +36,11 @@ fn build(values: &Values) -> SceneBuilder {
     let mut scene = SceneBuilder::new(SCENE.name);
     let plaster = scene.material(Material::diffuse(Rgb::new(0.74, 0.72, 0.69)).named("plaster"));
     let steel = scene.material(Material::diffuse(Rgb::grey(0.25)).named("rod"));
-    scene.object("floor and wall", joined([floor(), backdrop()]), plaster);
+    scene.object("floor", quad(DVec3::new(-30.0, 0.0, 30.0), DVec3::X * 60.0, DVec3::Z * -60.0), plaster);
 
     for (i, color) in COLORS.into_iter().enumerate() {
         let height = BALL + 0.62 * i as f64;
-        let foot = DVec3::new(1.3 * (i as f64 - 2.0), 0.0, 0.35 * (i as f64 - 2.0));
+        let foot = DVec3::new(1.35 * (i as f64 - 2.0), 0.0, 0.0);
         let ball = scene.material(Material::diffuse(color));
         let center = single(foot + DVec3::Y * height);
         scene.shape("ball", Shape::Sphere { center, radius: BALL as f32 }, ball);
@@ -48,29 +48,16 @@ fn build(values: &Values) -> SceneBuilder {
     }
 
     let radius = values.get("light-radius") as f32;
-    let center = DVec3::new(-3.5, 6.5, -4.0);
-    let normal = (DVec3::new(0.5, 0.0, 1.0) - center).normalize().as_vec3();
-    let warm = Rgb::new(1.0, 0.90, 0.74) * (170.0 / (radius * radius));
+    let center = DVec3::new(-1.4, 8.2, -4.0);
+    let normal = (DVec3::new(0.3, 0.0, 1.0) - center).normalize().as_vec3();
+    let warm = Rgb::new(1.0, 0.90, 0.74) * (75.0 / (radius * radius));
     scene.light("key", Disk::new(center.as_vec3(), normal, radius, warm));
     // A wide, weak second light from above keeps the umbra readable: cool, so that the two can be told apart.
-    let cool = Rgb::new(0.55, 0.75, 1.0) * 0.22;
-    let (corner, u, v) = (DVec3::new(-5.0, 9.0, -3.0), DVec3::X * 10.0, DVec3::Z * 8.0);
+    let cool = Rgb::new(0.55, 0.75, 1.0) * 0.16;
+    let (corner, u, v) = (DVec3::new(-5.0, 10.0, -2.0), DVec3::X * 10.0, DVec3::Z * 8.0);
     scene.light("fill", Rectangle::new(corner.as_vec3(), u.as_vec3(), v.as_vec3(), cool));
 
-    let eye = DVec3::new(1.2, 5.2, 11.0);
-    scene.cameras.push(Camera::perspective(eye, DVec3::new(0.45, 0.85, 0.6), 31.0).sized(800, 500));
+    let eye = DVec3::new(0.5, 7.6, 10.6);
+    scene.cameras.push(Camera::perspective(eye, DVec3::new(0.35, 0.85, 0.45), 30.5).sized(800, 480));
     scene
-}
-
-fn floor() -> antumbra_trace::Triangles {
-    quad(DVec3::new(-30.0, 0.0, 30.0), DVec3::X * 60.0, DVec3::Z * -36.0)
-}
-
-/// The floor bends up into a wall behind the balls.
-fn backdrop() -> antumbra_trace::Triangles {
-    sheet(1, 24, |u, v| {
-        let (c, s) = turned(v / 4.0);
-        let x = 60.0 * u - 30.0;
-        DVec3::new(x, 8.0 * (1.0 - c), -6.0 - 8.0 * s)
-    })
 }

@@ -26,8 +26,8 @@ pub(super) const SCENE: Builtin = Builtin {
 const WHITE: Rgb = Rgb::new(0.738, 0.736, 0.737);
 const GREEN: Rgb = Rgb::new(0.070, 0.388, 0.088);
 const RED: Rgb = Rgb::new(0.524, 0.057, 0.049);
-/// The lamp's spectrum: 0, 8, 15.6, 18.4 at 400, 500, 600, 700 nm.
-const LAMP: Rgb = Rgb::new(18.45, 11.52, 3.16);
+/// The lamp's spectrum is 0, 8, 15.6, 18.4 at 400, 500, 600, 700 nm, in no unit; here it is made to suit exposure 0.
+const LAMP: Rgb = Rgb::new(28.0, 17.5, 4.8);
 
 const CEILING: f64 = 548.8;
 const SHORT_BLOCK: [[f64; 2]; 4] = [[130.0, 65.0], [82.0, 225.0], [240.0, 272.0], [290.0, 114.0]];

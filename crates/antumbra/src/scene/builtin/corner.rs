@@ -17,7 +17,7 @@ pub(super) const SCENE: Builtin = Builtin {
 
 fn build(_: &Values) -> SceneBuilder {
     let mut scene = SceneBuilder::new(SCENE.name);
-    let clay = scene.material(Material::diffuse(Rgb::new(0.72, 0.70, 0.67)).named("clay"));
+    let clay = scene.material(Material::diffuse(Rgb::new(0.60, 0.58, 0.55)).named("clay"));
 
     let wall = 5.0;
     let (x, y, z) = (DVec3::X * wall, DVec3::Y * wall, DVec3::Z * wall);
@@ -28,7 +28,12 @@ fn build(_: &Values) -> SceneBuilder {
     let crate_ = rounded_box(DVec3::new(0.42, 0.62, 0.42), 0.035, 3);
     smooth(&mut scene, "box", moved(crate_, &turn_y(0.42, DVec3::new(0.62, 0.62, 0.68))), clay);
     let ring = torus(0.36, 0.13, 96, 40);
-    smooth(&mut scene, "ring on the floor", moved(ring.clone(), &turn_y(0.0, DVec3::new(0.95, 0.13, 1.95))), clay);
+    smooth(
+        &mut scene,
+        "ring on the floor",
+        moved(ring.clone(), &turn_y(0.0, DVec3::new(0.95, 0.13, 1.95))),
+        clay,
+    );
     let tilted = turn(DVec3::X, 1.15, DVec3::new(2.45, 0.44, 0.36));
     smooth(&mut scene, "ring at the wall", moved(ring, &tilted), clay);
     let cone = [(0.0, 0.0), (0.34, 0.0), (0.34, 0.02), (0.0, 0.95)];
@@ -38,7 +43,7 @@ fn build(_: &Values) -> SceneBuilder {
         smooth(&mut scene, "pebble", pebble, clay);
     }
 
-    scene.light("sky", Environment::constant(Rgb::new(0.95, 0.98, 1.0)));
+    scene.light("sky", Environment::constant(Rgb::new(0.80, 0.83, 0.86)));
 
     let eye = DVec3::new(4.6, 2.9, 5.1);
     scene.cameras.push(Camera::perspective(eye, DVec3::new(1.12, 0.62, 0.98), 31.0).sized(640, 480));

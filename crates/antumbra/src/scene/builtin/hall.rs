@@ -4,7 +4,7 @@ use antumbra_math::{DMat3, DVec3, Rgb, World};
 use antumbra_trace::Triangles;
 
 use super::noise::{Dice, fractal};
-use super::solids::{cuboid, single};
+use super::solids::{cuboid, single, turned};
 use super::{Builtin, Parameter, Values};
 use crate::light::Rectangle;
 use crate::scene::{Camera, Material, SceneBuilder};
@@ -43,12 +43,12 @@ fn build(values: &Values) -> SceneBuilder {
         scene.object("boxes", boxes, paint);
     }
 
-    let corner = World::new(-3.0, HALL.y as f32 - 0.2, -7.0);
-    let radiance = Rgb::new(1.0, 0.95, 0.86) * 16.0;
+    let corner = World::new(-3.0, HALL.y as f32 - 0.2, -5.0);
+    let radiance = Rgb::new(1.0, 0.95, 0.86) * 26.0;
     scene.light("light", Rectangle::new(corner, World::X * 6.0, World::Z * 6.0, radiance));
 
-    let eye = DVec3::new(9.0, 7.2, 23.0);
-    scene.cameras.push(Camera::perspective(eye, DVec3::new(-1.5, 2.2, -2.0), 42.0).sized(800, 500));
+    let eye = DVec3::new(7.0, 11.8, 22.5);
+    scene.cameras.push(Camera::perspective(eye, DVec3::new(-0.5, 4.0, -1.5), 46.0).sized(800, 500));
     scene
 }
 
@@ -82,13 +82,18 @@ fn boxes(count: usize) -> [Triangles; COLORS.len()] {
     meshes
 }
 
-/// Where a box floats: at least 0.3 m from every wall.
+/// Where a box floats, at least 0.3 m from every wall: three of four lie in dunes on the floor, the others drift in a
+/// ring that leans.
 fn place(dice: &mut Dice) -> DVec3 {
-    let (x, z) = (dice.between(-0.5, 0.5) * (HALL.x - 0.6), dice.between(-0.5, 0.5) * (HALL.z - 0.6));
-    let dune = 1.6 + 1.9 * fractal(DVec3::new(x, 0.0, z) / 9.0, 3, 5);
-    let rise = dice.unit();
-    let drift = dice.unit();
-    // Two thirds lie in the dunes; the rest thins out upwards.
-    let y = if drift < 0.66 { dune.max(0.1) * rise } else { dune.max(0.1) + 9.0 * rise * rise * rise };
-    DVec3::new(x, (0.3 + y).min(HALL.y - 0.6), z)
+    if dice.unit() < 0.75 {
+        let (x, z) = (dice.between(-0.5, 0.5) * (HALL.x - 0.6), dice.between(-0.5, 0.5) * (HALL.z - 0.6));
+        let dune = 0.7 + 1.1 * fractal(DVec3::new(x, 0.0, z) / 11.0, 3, 5);
+        return DVec3::new(x, 0.3 + dune.max(0.05) * dice.unit(), z);
+    }
+    let (c, s) = turned(dice.unit());
+    // Two numbers together: dense in the middle of the ring, thin at its rim.
+    let mut around = |width: f64| width * (dice.unit() + dice.unit() - 1.0);
+    let (out, up) = (11.0 + around(3.2), around(0.7));
+    let (x, z) = (out * c, out * s);
+    DVec3::new(x, 6.0 - 0.2 * z + up, z - 3.0)
 }

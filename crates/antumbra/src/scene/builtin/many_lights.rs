@@ -25,11 +25,11 @@ pub(super) const SCENE: Builtin = Builtin {
 
 /// Paper of the lamps.
 const PAPER: [Rgb; 5] = [
-    Rgb::new(1.0, 0.55, 0.22),
-    Rgb::new(1.0, 0.72, 0.38),
-    Rgb::new(1.0, 0.36, 0.20),
-    Rgb::new(0.95, 0.42, 0.55),
-    Rgb::new(0.30, 0.62, 0.95),
+    Rgb::new(1.0, 0.40, 0.10),
+    Rgb::new(1.0, 0.58, 0.20),
+    Rgb::new(1.0, 0.24, 0.09),
+    Rgb::new(0.95, 0.25, 0.40),
+    Rgb::new(0.16, 0.45, 0.95),
 ];
 /// Columns stand on a circle of this radius [m].
 const CIRCLE: f64 = 3.6;
@@ -42,7 +42,12 @@ fn build(values: &Values) -> SceneBuilder {
     scene.object("square", quad(DVec3::new(-20.0, 0.0, 20.0), DVec3::X * 40.0, DVec3::Z * -40.0), paving);
     for i in 0..9 {
         let (c, s) = turned(0.03 + f64::from(i) / 9.0);
-        smooth(&mut scene, "column", moved(column(), &turn_y(0.0, DVec3::new(CIRCLE * c, 0.0, CIRCLE * s))), marble);
+        smooth(
+            &mut scene,
+            "column",
+            moved(column(), &turn_y(0.0, DVec3::new(CIRCLE * c, 0.0, CIRCLE * s))),
+            marble,
+        );
     }
     let steps = (0..3).map(|i| {
         let (half, y) = (1.35 - 0.3 * f64::from(i), 0.16 * f64::from(i));
@@ -75,13 +80,13 @@ fn column() -> antumbra_trace::Triangles {
 /// Lamps that hang in the air, clear of everything: over the ground, most of them low.
 fn lamps(scene: &mut SceneBuilder, count: u32) {
     let mut dice = Dice::new(7);
-    let radius = 0.045 * (400.0 / f64::from(count)).sqrt().clamp(0.08, 3.0);
+    let radius = 0.06 * (400.0 / f64::from(count)).sqrt().clamp(0.08, 3.0);
     // Φ = 4π² r² L, shared by all.
-    let radiance = 9.2 / (f64::from(count) * radius * radius);
+    let radiance = 4.6 / (f64::from(count) * radius * radius);
     let mut hung = 0;
     while hung < count {
         let part = dice.unit();
-        let (reach, height) = (0.6 + 7.0 * dice.unit().sqrt(), 0.2 + 3.0 * dice.unit() * dice.unit());
+        let (reach, height) = (0.6 + 5.0 * dice.unit().sqrt(), 0.2 + 2.8 * dice.unit() * dice.unit());
         let color = dice.pick(&PAPER);
         let (c, s) = turned(part);
         let at = DVec3::new(reach * c, height, reach * s);

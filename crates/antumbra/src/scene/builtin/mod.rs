@@ -86,7 +86,11 @@ pub fn find(name: &str) -> Result<&'static Builtin, SceneError> {
     SCENES.iter().find(|s| s.name == name).ok_or_else(|| {
         let guess = did_you_mean(name, names.clone());
         let all = names.collect::<Vec<_>>().join(", ");
-        SceneError::new("", format!("there is no built-in scene \"{name}\"{guess}"), format!("There are: {all}."))
+        SceneError::new(
+            "",
+            format!("there is no built-in scene \"{name}\"{guess}"),
+            format!("There are: {all}."),
+        )
     })
 }
 

@@ -48,20 +48,20 @@ impl Dice {
 pub const TURN: f64 = std::f64::consts::TAU;
 
 /// Gradient noise: smooth, 0 at the points of the integer lattice, between about −1 and 1 (after K. Perlin, 2002).
+/// |x|, |y|, |z| < 2³¹.
 pub fn noise(p: DVec3, seed: u32) -> f64 {
-    let cell = DVec3::new(real::floor(p.x), real::floor(p.y), real::floor(p.z));
-    let f = p - cell;
-    let fade = f * f * f * (f * (f * 6.0 - DVec3::splat(15.0)) + DVec3::splat(10.0));
-    let base = [cell.x as i32 as u32, cell.y as i32 as u32, cell.z as i32 as u32];
-    let row = |j: u32, k: u32| {
-        let key = mix32(base[1].wrapping_add(j) ^ mix32(base[2].wrapping_add(k) ^ seed));
-        let corner = |i: u32| {
-            let h = mix32(base[0].wrapping_add(i) ^ key);
-            slope(h, f.x - f64::from(i), f.y - f64::from(j), f.z - f64::from(k))
-        };
-        mixed(corner(0), corner(1), fade.x)
+    let ((x, fx), (y, fy), (z, fz)) = (cell(p.x), cell(p.y), cell(p.z));
+    let row = |j: u32, plane: u32, fy: f64, fz: f64| {
+        let key = mix32(y.wrapping_add(j) ^ plane);
+        // One multiplication is enough here: only four upper bits are used.
+        let corner = |i: u32| (x.wrapping_add(i) ^ key).wrapping_mul(0x7feb_352d) >> 28;
+        mixed(slope(corner(0), fx, fy, fz), slope(corner(1), fx - 1.0, fy, fz), fade(fx))
     };
-    mixed(mixed(row(0, 0), row(1, 0), fade.y), mixed(row(0, 1), row(1, 1), fade.y), fade.z)
+    let plane = |k: u32, fz: f64| {
+        let key = mix32(z.wrapping_add(k) ^ seed.wrapping_mul(0x9e37_79b9));
+        mixed(row(0, key, fy, fz), row(1, key, fy - 1.0, fz), fade(fy))
+    };
+    mixed(plane(0, fz), plane(1, fz - 1.0), fade(fz))
 }
 
 /// Octaves of noise, each twice as fine and half as high as the one before.
@@ -83,15 +83,41 @@ pub fn ridges(p: DVec3, octaves: u32, seed: u32) -> f64 {
     sum
 }
 
-/// Scalar product of (x, y, z) with one of the twelve edge directions of a cube.
-fn slope(hash: u32, x: f64, y: f64, z: f64) -> f64 {
-    let (u, v) = match (hash >> 8) % 3 {
-        0 => (x, y),
-        1 => (y, z),
-        _ => (z, x),
-    };
-    (if hash & 1 == 0 { u } else { -u }) + (if hash & 2 == 0 { v } else { -v })
+/// The lattice cell that x lies in, and how far.
+fn cell(x: f64) -> (u32, f64) {
+    let cut = x as i32;
+    let below = cut - i32::from(x < f64::from(cut));
+    (below as u32, x - f64::from(below))
 }
+
+fn fade(t: f64) -> f64 {
+    t * t * t * (t * (t * 6.0 - 15.0) + 10.0)
+}
+
+/// Scalar product of (x, y, z) with one of the twelve edge directions of a cube (four of them twice).
+fn slope(corner: u32, x: f64, y: f64, z: f64) -> f64 {
+    let [gx, gy, gz] = SLOPES[corner as usize];
+    gx * x + gy * y + gz * z
+}
+
+const SLOPES: [[f64; 3]; 16] = [
+    [1.0, 1.0, 0.0],
+    [-1.0, 1.0, 0.0],
+    [1.0, -1.0, 0.0],
+    [-1.0, -1.0, 0.0],
+    [1.0, 0.0, 1.0],
+    [-1.0, 0.0, 1.0],
+    [1.0, 0.0, -1.0],
+    [-1.0, 0.0, -1.0],
+    [0.0, 1.0, 1.0],
+    [0.0, -1.0, 1.0],
+    [0.0, 1.0, -1.0],
+    [0.0, -1.0, -1.0],
+    [1.0, 1.0, 0.0],
+    [-1.0, 1.0, 0.0],
+    [0.0, -1.0, 1.0],
+    [0.0, -1.0, -1.0],
+];
 
 fn mixed(a: f64, b: f64, t: f64) -> f64 {
     a + (b - a) * t

@@ -13,7 +13,7 @@ pub(super) const SCENE: Builtin = Builtin {
     shows: "A light between a plane and a cylinder: what lies behind the light must not shadow",
     parameters: &[Parameter {
         name: "plane",
-        default: -1.0,
+        default: -1.1,
         low: -2.0,
         high: 0.5,
         whole: false,
@@ -31,18 +31,17 @@ fn build(values: &Values) -> SceneBuilder {
     let blue = scene.material(Material::diffuse(Rgb::new(0.25, 0.42, 0.60)).named("blue"));
 
     let plane = values.get("plane");
-    scene.object("plane", quad(DVec3::new(-3.0, plane, 2.4), DVec3::X * 6.0, DVec3::Z * -4.8), white);
+    scene.object("plane", quad(DVec3::new(-2.6, plane, 2.2), DVec3::X * 5.2, DVec3::Z * -4.4), white);
 
-    let (p, q, radius) = (DVec3::new(-1.5, 1.15, 0.0), DVec3::new(1.5, 1.15, 0.0), 0.45);
+    let (p, q, radius) = (DVec3::new(-1.3, 1.05, 0.0), DVec3::new(1.3, 1.05, 0.0), 0.45);
     scene.shape("cylinder", Shape::Cylinder { p: single(p), q: single(q), radius }, blue);
     for (center, out) in [(p, -DVec3::X), (q, DVec3::X)] {
         scene.shape("lid", Shape::Disk { center: single(center), normal: single(out), radius }, blue);
     }
 
-    // E = π L r² / d² below the light.
-    scene.light("light", Sphere::new(World::ZERO, LIGHT, Rgb::new(1.0, 0.92, 0.80) * 260.0));
+    scene.light("light", Sphere::new(World::ZERO, LIGHT, Rgb::new(1.0, 0.92, 0.80) * 720.0));
 
-    let eye = DVec3::new(2.6, 2.2, 7.4);
-    scene.cameras.push(Camera::perspective(eye, DVec3::new(0.0, 0.05, 0.0), 33.0).sized(640, 480));
+    let eye = DVec3::new(2.4, 1.9, 6.9);
+    scene.cameras.push(Camera::perspective(eye, DVec3::new(0.0, -0.08, 0.0), 33.0).sized(640, 480));
     scene
 }

@@ -44,9 +44,11 @@ fn build(values: &Values) -> SceneBuilder {
     scene
 }
 
-/// The stone's surface in the direction d: folds, pits and grain.
+/// The stone's surface in the direction d: worn folds, cracks along them, and grain.
 fn surface(d: DVec3) -> DVec3 {
-    let bent = d * 1.7 + DVec3::new(noise(d * 2.1, 1), noise(d * 2.1, 2), noise(d * 2.1, 3)) * 0.45;
-    let height = 0.16 * ridges(bent, 5, 4) + 0.10 * fractal(d * 2.6, 3, 9) + 0.012 * fractal(d * 24.0, 3, 14);
-    DVec3::Y * 0.98 + d * (0.80 + height) * DVec3::new(1.0, 1.06, 0.94)
+    let bent = d + DVec3::splat(0.35 * noise(d * 1.8, 1));
+    let folds = 0.17 * fractal(bent * 1.5, 3, 9);
+    let cracks = 0.055 * ridges(bent * 3.1, 3, 4);
+    let grain = 0.006 * fractal(d * 37.0, 2, 14);
+    DVec3::Y * 0.90 + d * (0.84 + folds - cracks + grain) * DVec3::new(1.0, 1.10, 0.94)
 }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use antumbra_math::{DVec3, Rgb};
 use antumbra_trace::{Shape, Triangles};
 
-use super::solids::{lathe, moved, quad, smooth, tube, turn_y, turned};
+use super::solids::{lathe, moved, smooth, tube, turn_y, turned};
 use super::{Builtin, Values, default_sky};
 use crate::light::{Environment, Light};
 use crate::scene::{Camera, Material, SceneBuilder};
@@ -34,7 +34,7 @@ fn under_light(sky: Light) -> SceneBuilder {
     let lacquer =
         scene.material(Material::metallic_roughness(Rgb::new(0.10, 0.22, 0.33), 0.0, 0.35).named("lacquer"));
 
-    scene.object("ground", quad(DVec3::new(-40.0, 0.0, 40.0), DVec3::X * 80.0, DVec3::Z * -80.0), ground);
+    smooth(&mut scene, "table", lathe(&TABLE, 240), ground);
     smooth(&mut scene, "plinth", plinth(), plaster);
     smooth(&mut scene, "knot", moved(knot(), &turn_y(0.5, DVec3::new(0.0, 1.28, 0.0))), lacquer);
     let balls = [(0.20, 0.42, clay), (0.37, 0.36, gold), (0.53, 0.40, mirror)];
@@ -45,10 +45,23 @@ fn under_light(sky: Light) -> SceneBuilder {
     }
     scene.light("sky", sky);
 
-    let eye = DVec3::new(0.9, 2.3, 6.6);
-    scene.cameras.push(Camera::perspective(eye, DVec3::new(0.0, 0.86, 0.0), 31.0).sized(640, 480));
+    let eye = DVec3::new(0.9, 1.75, 7.0);
+    scene.cameras.push(Camera::perspective(eye, DVec3::new(0.0, 0.98, 0.0), 30.0).sized(640, 480));
     scene
 }
+
+/// A round plate under everything, its edge rounded.
+const TABLE: [(f64, f64); 9] = [
+    (0.0, -0.12),
+    (2.62, -0.12),
+    (2.65, -0.118),
+    (2.69, -0.09),
+    (2.70, -0.06),
+    (2.69, -0.03),
+    (2.65, -0.002),
+    (2.62, 0.0),
+    (0.0, 0.0),
+];
 
 /// A turned foot with a rim.
 fn plinth() -> Triangles {

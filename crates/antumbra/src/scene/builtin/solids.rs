@@ -75,7 +75,8 @@ pub fn shell(xs: &[f64], ys: &[f64], zs: &[f64], mut map: impl FnMut(DVec3) -> D
 /// A unit ball of 12 n² triangles of about the same size, each direction passed through `map`.
 pub fn ball(n: u32, mut map: impl FnMut(DVec3) -> DVec3) -> Triangles {
     // Equal angles, not equal lengths, on the cube's edge.
-    let grid: Vec<f64> = (0..=n).map(|i| real::tan((f64::from(i) / f64::from(n) - 0.5) * (TURN / 4.0))).collect();
+    let grid: Vec<f64> =
+        (0..=n).map(|i| real::tan((f64::from(i) / f64::from(n) - 0.5) * (TURN / 4.0))).collect();
     shell(&grid, &grid, &grid, |p| map(p.normalize()))
 }
 
@@ -226,7 +227,10 @@ pub fn turn(axis: DVec3, angle: f64, to: DVec3) -> Transform {
     let (c, s) = (real::cos(angle), real::sin(angle));
     // Rodrigues: x cos + (axis × x) sin + axis (axis · x)(1 − cos), for each unit vector x.
     let column = |x: DVec3| x * c + axis.cross(x) * s + axis * (axis.dot(x) * (1.0 - c));
-    Transform { linear: DMat3::from_cols(column(DVec3::X), column(DVec3::Y), column(DVec3::Z)), translation: to }
+    Transform {
+        linear: DMat3::from_cols(column(DVec3::X), column(DVec3::Y), column(DVec3::Z)),
+        translation: to,
+    }
 }
 
 /// Cosine and sine of a part of a full turn.

@@ -8,7 +8,7 @@ use antumbra_trace::{Shape, Triangles};
 use super::solids::{ball, cuboid, joined, lathe, rounded_box, sheet, smooth_mesh, torus, tube};
 use super::{Builtin, SCENES, Values, build, default_sky, eclipse, find};
 use crate::bsdf::{Bsdf, Diffuse};
-use crate::light::{Light, LightKind as _};
+use crate::light::Light;
 use crate::scene::{Body, SceneBuilder};
 
 /// Number of the scene's triangles, each object counted.
@@ -63,7 +63,7 @@ fn closed_solids_are_closed_and_look_outwards() {
     let solids = [
         ("cuboid", cuboid(DVec3::NEG_ONE, DVec3::ONE), 8.0, 1e-6),
         ("ball", ball(32, |d| d), 4.18879, 0.01),
-        ("rounded box", rounded_box(DVec3::new(1.0, 2.0, 0.5), 0.1, 3), 7.86, 0.02),
+        ("rounded box", rounded_box(DVec3::new(1.0, 2.0, 0.5), 0.1, 3), 7.9413, 0.005),
         ("cylinder", lathe(&[(0.0, 0.0), (1.0, 0.0), (1.0, 2.0), (0.0, 2.0)], 64), 6.28318, 0.02),
         ("torus", torus(2.0, 0.5, 64, 32), 9.8696, 0.1),
         ("tube", tube(&ring, |_| 0.2, 12), 1.27, 0.15),
@@ -105,7 +105,12 @@ fn every_scene_is_sound_at_default_and_at_the_ends_of_its_parameters() {
                 let vertices = &mesh.triangles.vertices;
                 assert!(vertices.iter().flatten().all(|x| x.is_finite()), "{} {}", scene.name, mesh.name);
                 let n = vertices.len() as u32;
-                assert!(mesh.triangles.indices.iter().flatten().all(|i| *i < n), "{} {}", scene.name, mesh.name);
+                assert!(
+                    mesh.triangles.indices.iter().flatten().all(|i| *i < n),
+                    "{} {}",
+                    scene.name,
+                    mesh.name
+                );
                 assert!(mesh.normals.as_ref().is_none_or(|v| v.len() == vertices.len()));
                 assert!(mesh.colors.as_ref().is_none_or(|v| v.len() == vertices.len()));
             }
@@ -142,7 +147,9 @@ fn bounds(scene: &SceneBuilder) -> (DVec3, DVec3) {
     };
     for object in &scene.objects {
         match &object.body {
-            Body::Mesh(m) => scene.meshes[*m as usize].triangles.vertices.iter().for_each(|v| around(*v, 0.0)),
+            Body::Mesh(m) => {
+                scene.meshes[*m as usize].triangles.vertices.iter().for_each(|v| around(*v, 0.0))
+            }
             Body::Shape(Shape::Sphere { center, radius } | Shape::Disk { center, radius, .. }) => {
                 around(*center, *radius);
             }
@@ -158,7 +165,7 @@ fn some_light_shines_on_what_the_camera_looks_at() {
     for scene in SCENES {
         let made = default(scene.name);
         let camera = &made.cameras[0];
-        // What lies there may face anywhere: a bare point that faces up, or the viewer.
+        // What lies there may face anywhere.
         let shines = |n: World| {
             let at = crate::receiver::Receiver {
                 p: camera.look_at.as_vec3(),
@@ -168,8 +175,8 @@ fn some_light_shines_on_what_the_camera_looks_at() {
             };
             made.lights.iter().any(|(_, l)| l.irradiance(&at) > 0.0)
         };
-        let toward_eye = (camera.eye - camera.look_at).normalize().as_vec3();
-        assert!(shines(World::Y) || shines(toward_eye), "{}", scene.name);
+        let facings = [World::X, World::Y, World::Z].into_iter().flat_map(|n| [n, -n]);
+        assert!(facings.into_iter().any(shines), "{}", scene.name);
     }
 }
 
@@ -251,7 +258,8 @@ fn names_and_defaults_fit_each_other() {
 fn the_default_sky_is_soft_and_bright_enough() {
     let sky = default_sky();
     assert!(sky.is_environment() && sky.fault().is_none());
-    let up = crate::receiver::Receiver { ..bare(Bsdf::Diffuse(Diffuse { albedo: antumbra_math::Rgb::WHITE })) };
+    let up =
+        crate::receiver::Receiver { ..bare(Bsdf::Diffuse(Diffuse { albedo: antumbra_math::Rgb::WHITE })) };
     let irradiance = sky.irradiance(&up);
     assert!((1.5..2.6).contains(&irradiance), "{irradiance}");
 }

@@ -12,7 +12,8 @@ use crate::scene::{Material, MaterialId, SceneBuilder};
 pub(super) fn add(scene: &mut SceneBuilder) {
     let walnut = scene.material(Material::diffuse(Rgb::new(0.22, 0.12, 0.07)).named("walnut"));
     let china = scene.material(Material::diffuse(Rgb::new(0.76, 0.75, 0.72)).named("china"));
-    let brass = scene.material(Material::metallic_roughness(Rgb::new(0.85, 0.62, 0.33), 1.0, 0.35).named("brass"));
+    let brass =
+        scene.material(Material::metallic_roughness(Rgb::new(0.85, 0.62, 0.33), 1.0, 0.35).named("brass"));
     table(scene, DVec3::new(0.0, 0.0, -0.35), walnut, china);
     shelf(scene, DVec3::new(2.25, 0.0, -2.33), walnut);
     lamp(scene, DVec3::new(1.36, 0.0, -2.1), brass, china);
@@ -23,7 +24,8 @@ pub(super) fn add(scene: &mut SceneBuilder) {
 fn table(scene: &mut SceneBuilder, at: DVec3, wood: MaterialId, china: MaterialId) {
     let to = |x: f64, y: f64, z: f64| Transform::translation(at + DVec3::new(x, y, z));
     let leg = lathe(&[(0.0, 0.0), (0.018, 0.0), (0.028, 0.36), (0.0, 0.361)], 24);
-    let legs = [(-0.5, -0.25), (0.5, -0.25), (-0.5, 0.25), (0.5, 0.25)].map(|(x, z)| moved(leg.clone(), &to(x, 0.0, z)));
+    let legs = [(-0.5, -0.25), (0.5, -0.25), (-0.5, 0.25), (0.5, 0.25)]
+        .map(|(x, z)| moved(leg.clone(), &to(x, 0.0, z)));
     let top = moved(rounded_box(DVec3::new(0.6, 0.02, 0.34), 0.018, 4), &to(0.0, 0.38, 0.0));
     smooth(scene, "table", joined(legs.into_iter().chain([top])), wood);
 
@@ -101,7 +103,8 @@ fn shelf(scene: &mut SceneBuilder, at: DVec3, wood: MaterialId) {
         moved(rounded_box(half, 0.004, 2), &Transform::translation(at + DVec3::new(x, y, 0.0)))
     };
     let sides = [-half, half].map(|x| board(x, 1.0, DVec3::new(thick, 1.0, depth)));
-    let boards = (0..6).map(|i| board(0.0, 0.05 + gap * f64::from(i), DVec3::new(half - thick, thick, depth)));
+    let boards =
+        (0..6).map(|i| board(0.0, 0.05 + gap * f64::from(i), DVec3::new(half - thick, thick, depth)));
     scene.object("shelf", joined(boards.chain(sides)), wood);
 
     let mut covers = COVERS.map(|_| Vec::new());
@@ -110,13 +113,20 @@ fn shelf(scene: &mut SceneBuilder, at: DVec3, wood: MaterialId) {
         let y = 0.05 + thick + gap * f64::from(level);
         let mut x = -half + 0.03;
         while x < half - 0.08 {
-            let book_half = DVec3::new(dice.between(0.008, 0.024), dice.between(0.10, 0.155), dice.between(0.08, 0.11));
+            let book_half =
+                DVec3::new(dice.between(0.008, 0.024), dice.between(0.10, 0.155), dice.between(0.08, 0.11));
             let lean = if dice.unit() < 0.07 { 0.16 } else { 0.0 };
             let room = 2.0 * book_half.x + lean * 1.6 * book_half.y;
             // Now and then a hand's breadth stays empty.
             if x + room < half - 0.03 && dice.unit() > 0.03 {
-                let foot = at + DVec3::new(x + 0.5 * room, y + book_half.y + 0.5 * lean * book_half.x, 0.13 - book_half.z);
-                covers[dice.pick(&[0, 1, 2, 3, 4, 5])].push(moved(book(book_half), &turn(DVec3::Z, lean, foot)));
+                let foot = at
+                    + DVec3::new(
+                        x + 0.5 * room,
+                        y + book_half.y + 0.5 * lean * book_half.x,
+                        0.13 - book_half.z,
+                    );
+                covers[dice.pick(&[0, 1, 2, 3, 4, 5])]
+                    .push(moved(book(book_half), &turn(DVec3::Z, lean, foot)));
             }
             x += room + 0.0015 + if dice.unit() < 0.02 { 0.12 } else { 0.0 };
         }

@@ -31,11 +31,11 @@ const WALL: f64 = 0.28;
 
 fn build(_: &Values) -> SceneBuilder {
     let mut scene = SceneBuilder::new(SCENE.name);
-    let mut paint = |name: &str, r: f32, g: f32, b: f32| {
-        scene.material(Material::diffuse(Rgb::new(r, g, b)).named(name))
-    };
+    let mut paint =
+        |name: &str, r: f32, g: f32, b: f32| scene.material(Material::diffuse(Rgb::new(r, g, b)).named(name));
     let (white, wall) = (paint("white", 0.78, 0.77, 0.75), paint("wall", 0.64, 0.66, 0.62));
-    let planks = [paint("oak", 0.42, 0.27, 0.15), paint("oak", 0.37, 0.23, 0.12), paint("oak", 0.46, 0.31, 0.18)];
+    let planks =
+        [paint("oak", 0.42, 0.27, 0.15), paint("oak", 0.37, 0.23, 0.12), paint("oak", 0.46, 0.31, 0.18)];
 
     shell_of_room(&mut scene, white, wall);
     floor(&mut scene, planks);
@@ -48,7 +48,7 @@ fn build(_: &Values) -> SceneBuilder {
     scene.light("sky", Environment::image(Arc::new(sky(DVec3::new(-0.80, 0.50, 0.22), 1.0, 2.2))));
 
     let eye = DVec3::new(2.62, 1.50, 2.32);
-    scene.cameras.push(Camera::perspective(eye, DVec3::new(-0.75, 0.82, -1.0), 52.0).sized(800, 560));
+    scene.cameras.push(Camera::perspective(eye, DVec3::new(-0.62, 0.74, -1.0), 52.0).sized(800, 560));
     scene
 }
 
@@ -133,7 +133,8 @@ fn window(scene: &mut SceneBuilder, white: MaterialId) {
 /// A panel of light in a frame under the ceiling.
 fn ceiling_light(scene: &mut SceneBuilder, white: MaterialId) {
     let y = ROOM.y - 0.06;
-    let edge = |x: [f64; 2], z: [f64; 2]| cuboid(DVec3::new(x[0], y - 0.02, z[0]), DVec3::new(x[1], ROOM.y, z[1]));
+    let edge =
+        |x: [f64; 2], z: [f64; 2]| cuboid(DVec3::new(x[0], y - 0.02, z[0]), DVec3::new(x[1], ROOM.y, z[1]));
     let frame = [
         edge([-1.05, -1.0], [-1.05, 1.05]),
         edge([1.0, 1.05], [-1.05, 1.05]),

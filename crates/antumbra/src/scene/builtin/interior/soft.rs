@@ -81,8 +81,9 @@ fn legs(scene: &mut SceneBuilder, at: DVec3, half_x: f64, half_z: f64) {
     let wood = scene.material(Material::diffuse(Rgb::new(0.16, 0.09, 0.05)).named("leg"));
     let leg = lathe(&[(0.0, 0.0), (0.016, 0.0), (0.03, 0.2), (0.0, 0.201)], 24);
     let corners = [(-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0), (1.0, 1.0)];
-    let legs = corners
-        .map(|(x, z)| moved(leg.clone(), &Transform::translation(at + DVec3::new(x * half_x, 0.0, z * half_z))));
+    let legs = corners.map(|(x, z)| {
+        moved(leg.clone(), &Transform::translation(at + DVec3::new(x * half_x, 0.0, z * half_z)))
+    });
     smooth(scene, "legs", joined(legs), wood);
 }
 
@@ -141,7 +142,9 @@ fn rug() -> Triangles {
         let (x, z) = (-1.55 + 3.1 * u, 0.85 - 2.0 * v);
         let knot = real::sin(TURN * 80.0 * u) * real::sin(TURN * 50.0 * v);
         let edge = (1.0 - (2.0 * u - 1.0).abs()).min(1.0 - (2.0 * v - 1.0).abs());
-        let height = 0.012 * (edge * 60.0).min(1.0) + 0.0025 * knot + 0.004 * fractal(DVec3::new(x, 0.0, z) * 4.0, 3, 95);
+        let height = 0.012 * (edge * 60.0).min(1.0)
+            + 0.0025 * knot
+            + 0.004 * fractal(DVec3::new(x, 0.0, z) * 4.0, 3, 95);
         DVec3::new(x, height.max(0.001), z)
     })
 }
