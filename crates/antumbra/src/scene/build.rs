@@ -159,7 +159,7 @@ impl SceneBuilder {
         let emissive =
             |o: &Object| self.materials[o.material as usize].emission.is_some_and(|e| !e.radiance.is_black());
         if self.sky_if_unlit && self.lights.is_empty() && !self.objects.iter().any(emissive) {
-            self.light("sky", crate::light::Environment::constant(antumbra_math::Rgb::WHITE));
+            self.light("sky", super::builtin::default_sky());
             self.say(
                 Level::Note,
                 "",

@@ -25,7 +25,7 @@ pub(super) fn add(scene: &mut SceneBuilder, at: DVec3) {
         (0.21, 0.36),
         (0.19, 0.362),
         (0.18, 0.32),
-        (0.0, 0.318),
+        (0.0, 0.315),
     ];
     smooth(scene, "pot", moved(lathe(&pot, 96), &to), clay);
     smooth(scene, "earth", moved(lathe(&[(0.0, 0.319), (0.182, 0.32), (0.0, 0.335)], 48), &to), earth);
