@@ -9,6 +9,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use crate::film::Film;
 use crate::illuminate::{Buffers, Counts, Job, illuminate};
 use crate::sampler::PassPlan;
+use crate::scene::{Scene, SceneBuilder, SceneError};
 use crate::sensor::Tile;
 
 /// The longest round: how much a person may lose by stopping.
@@ -67,8 +68,15 @@ pub fn run(job: &Job<'_>, threads: u32, watch: &mut dyn FnMut(Progress) -> Flow)
     let mut passes_done = 0;
     workers::with(threads, |pool| {
         for round in &rounds {
-            let report = |done| Progress { done, total, passes_done, passes: job.passes.count };
-            pool.round(job, round.passes.clone(), &mut slots, &shared, &mut |done| watch(report(done)));
+            let mut look = || {
+                let done = shared.done.load(Ordering::Relaxed);
+                if watch(Progress { done, total, passes_done, passes: job.passes.count }) == Flow::Stop {
+                    shared.stop.store(true, Ordering::Relaxed);
+                }
+            };
+            let block =
+                |slot: &mut Slot, b: &mut Buffers| compute(job, round.passes.clone(), slot, &shared, b);
+            pool.each(slots.iter_mut().collect(), &block, &mut look);
             if slots.iter().any(|slot| !slot.done) {
                 break;
             }
@@ -131,14 +139,47 @@ fn compute(job: &Job<'_>, passes: Range<u32>, slot: &mut Slot, shared: &Shared, 
     shared.done.fetch_add(1, Ordering::Relaxed);
 }
 
+/// Checks a scene and builds its tree on `threads` threads (0 = all cores).
+pub fn build(builder: SceneBuilder, threads: u32) -> Result<Scene, SceneError> {
+    workers::with(threads, |pool| builder.build_in(pool.for_trees()))
+}
+
+/// Answers `out` in chunks of `size` on `threads` threads (0 = all cores), each thread with a `State` of its own;
+/// `watch` hears on this thread how many entries are done. Stopped, the rest keeps what it was.
+pub fn chunks<T: Send, State: Default>(
+    out: &mut [T],
+    size: usize,
+    threads: u32,
+    answer: impl Fn(usize, &mut [T], &mut State) + Sync,
+    watch: &mut dyn FnMut(u64) -> Flow,
+) {
+    let (stop, done) = (AtomicBool::new(false), AtomicU64::new(0));
+    let one = |(k, part): (usize, &mut [T]), state: &mut State| {
+        if !stop.load(Ordering::Relaxed) {
+            answer(k * size, part, state);
+            done.fetch_add(part.len() as u64, Ordering::Relaxed);
+        }
+    };
+    let mut look = || {
+        if watch(done.load(Ordering::Relaxed)) == Flow::Stop {
+            stop.store(true, Ordering::Relaxed);
+        }
+    };
+    if out.len() <= size {
+        one((0, out), &mut State::default());
+        look();
+    } else {
+        workers::with(threads, |pool| pool.each(out.chunks_mut(size).enumerate().collect(), &one, &mut look));
+    }
+}
+
 #[cfg(feature = "threads")]
 mod workers {
     //! A pool of its own for each run: nothing global.
 
     use std::sync::mpsc::{RecvTimeoutError, channel};
+    use std::sync::{Mutex, PoisonError};
     use std::time::Duration;
-
-    use rayon::prelude::*;
 
     use super::*;
 
@@ -154,32 +195,40 @@ mod workers {
     }
 
     impl Pool {
-        pub(super) fn round(
+        /// The same threads for building trees.
+        pub(super) fn for_trees(&self) -> antumbra_trace::Pool<'_> {
+            self.0.as_ref().map(antumbra_trace::Pool::from).unwrap_or_default()
+        }
+
+        /// Does `work` on every item, the items in any order; `look` is called every tick on the calling thread.
+        pub(super) fn each<I: Send, State: Default>(
             &self,
-            job: &Job<'_>,
-            passes: Range<u32>,
-            slots: &mut [Slot],
-            shared: &Shared,
-            watch: &mut dyn FnMut(u64) -> Flow,
+            items: Vec<I>,
+            work: &(impl Fn(I, &mut State) + Sync),
+            look: &mut dyn FnMut(),
         ) {
-            let Some(pool) = &self.0 else { return serial(job, passes, slots, shared, watch) };
+            let Some(pool) = &self.0 else { return serial(items, work, look) };
+            let queue = Mutex::new(items.into_iter());
+            // A thread that panicked while it held the queue has taken its item: the rest goes on.
+            let next = || queue.lock().unwrap_or_else(PoisonError::into_inner).next();
             let (finished, is_finished) = channel::<()>();
             pool.in_place_scope(|scope| {
-                scope.spawn(move |_| {
-                    slots.par_iter_mut().with_max_len(1).for_each_init(Buffers::default, |b, slot| {
-                        compute(job, passes.clone(), slot, shared, b)
+                for _ in 0..pool.current_num_threads() {
+                    let (finished, next) = (finished.clone(), &next);
+                    scope.spawn(move |_| {
+                        let mut state = State::default();
+                        while let Some(item) = next() {
+                            work(item, &mut state);
+                        }
+                        drop(finished);
                     });
-                    drop(finished);
-                });
+                }
+                drop(finished);
                 while is_finished.recv_timeout(TICK) == Err(RecvTimeoutError::Timeout) {
-                    if watch(shared.done.load(Ordering::Relaxed)) == Flow::Stop {
-                        shared.stop.store(true, Ordering::Relaxed);
-                    }
+                    look();
                 }
             });
-            if watch(shared.done.load(Ordering::Relaxed)) == Flow::Stop {
-                shared.stop.store(true, Ordering::Relaxed);
-            }
+            look();
         }
     }
 }
@@ -197,32 +246,26 @@ mod workers {
     }
 
     impl Pool {
-        pub(super) fn round(
+        pub(super) fn for_trees(&self) -> antumbra_trace::Pool<'_> {
+            antumbra_trace::Pool::serial()
+        }
+
+        pub(super) fn each<I: Send, State: Default>(
             &self,
-            job: &Job<'_>,
-            passes: Range<u32>,
-            slots: &mut [Slot],
-            shared: &Shared,
-            watch: &mut dyn FnMut(u64) -> Flow,
+            items: Vec<I>,
+            work: &(impl Fn(I, &mut State) + Sync),
+            look: &mut dyn FnMut(),
         ) {
-            serial(job, passes, slots, shared, watch);
+            serial(items, work, look);
         }
     }
 }
 
-/// One tile after the other, on the calling thread.
-fn serial(
-    job: &Job<'_>,
-    passes: Range<u32>,
-    slots: &mut [Slot],
-    shared: &Shared,
-    watch: &mut dyn FnMut(u64) -> Flow,
-) {
-    let mut buffers = Buffers::default();
-    for slot in slots {
-        compute(job, passes.clone(), slot, shared, &mut buffers);
-        if watch(shared.done.load(Ordering::Relaxed)) == Flow::Stop {
-            shared.stop.store(true, Ordering::Relaxed);
-        }
+/// One item after the other, on the calling thread.
+fn serial<I, State: Default>(items: Vec<I>, work: &impl Fn(I, &mut State), look: &mut dyn FnMut()) {
+    let mut state = State::default();
+    for item in items {
+        work(item, &mut state);
+        look();
     }
 }

@@ -131,6 +131,11 @@ impl Scene {
         (&self.objects[instance as usize], local)
     }
 
+    /// The object of a primitive, by number.
+    pub fn object_of(&self, prim: PrimId) -> u32 {
+        self.world.locate(prim).map_or(u32::MAX, |(object, _)| object)
+    }
+
     /// The light that a primitive is, if it shines.
     #[inline]
     pub fn light_of(&self, object: &Placed, local: u32) -> Option<LightId> {

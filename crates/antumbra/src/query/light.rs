@@ -1,4 +1,4 @@
-//! Arrays of questions: how much light arrives at points, how open are they, what part of a light do they see. Floor 8.
+//! How much light arrives at points, how open they are, what part of a light they see.
 
 use antumbra_math::Vec3;
 use antumbra_trace::{Bits, Visibility};

@@ -1,0 +1,82 @@
+//! Segments and rays by the million: chunks over threads, answers in the order of the questions.
+
+use std::ops::Range;
+
+use antumbra_math::Vec3;
+use antumbra_trace::{Bits, Hits, NO_PRIM, PrimId, SegmentBuffer, Visibility};
+
+use crate::receiver::Receiver;
+use crate::scene::{Look, Scene};
+use crate::schedule::{self, Flow};
+
+/// Rays of a chunk: enough for the batch calls, small enough for the cache.
+const CHUNK: usize = 4096;
+
+/// Writes the questions of a range into a buffer (it comes empty).
+pub type Fill<'a> = dyn Fn(Range<usize>, &mut SegmentBuffer) + Sync + 'a;
+
+/// What a ray meets first.
+#[derive(Clone, Copy, Debug)]
+pub struct RayHit {
+    /// Ray parameter; +∞ for a miss.
+    pub t: f64,
+    /// The primitive, or `NO_PRIM`.
+    pub prim: PrimId,
+    /// Its object, or `u32::MAX`.
+    pub object: u32,
+    /// Weights of its second and third corner.
+    pub uv: [f32; 2],
+    /// The surface there, ready to ask for light; `None` for a miss.
+    pub receiver: Option<Receiver>,
+}
+
+/// Whether anything lies strictly inside each segment; `watch` hears how many are answered.
+pub fn occluded(
+    scene: &Scene,
+    fill: &Fill<'_>,
+    threads: u32,
+    out: &mut [bool],
+    watch: &mut dyn FnMut(u64) -> Flow,
+) {
+    let visibility = scene.visibility(false);
+    let answer = |from: usize, out: &mut [bool], (buffer, bits): &mut (SegmentBuffer, Bits)| {
+        buffer.clear();
+        fill(from..from + out.len(), buffer);
+        visibility.occluded(buffer.as_segments(), bits);
+        out.iter_mut().enumerate().for_each(|(i, blocked)| *blocked = bits.get(i));
+    };
+    schedule::chunks(out, CHUNK, threads, answer, watch);
+}
+
+/// What each ray meets first.
+pub fn closest_hit(
+    scene: &Scene,
+    fill: &Fill<'_>,
+    threads: u32,
+    out: &mut [RayHit],
+    watch: &mut dyn FnMut(u64) -> Flow,
+) {
+    let visibility = scene.visibility(false);
+    let answer = |from: usize, out: &mut [RayHit], (buffer, hits): &mut (SegmentBuffer, Hits)| {
+        buffer.clear();
+        fill(from..from + out.len(), buffer);
+        let rays = buffer.as_segments();
+        visibility.nearest(rays, hits);
+        for (i, hit) in out.iter_mut().enumerate() {
+            let (t, prim, uv) = (hits.t[i], hits.prim[i], hits.uv[i]);
+            *hit = RayHit { t, prim, uv, ..RayHit::MISS };
+            if prim != NO_PRIM {
+                let (o, d) = (Vec3::from(rays.origin_at(i)), Vec3::from(rays.end_at(i)));
+                hit.object = scene.object_of(prim);
+                hit.receiver = Some(scene.meet(o, d, t, prim, uv, &Look::default()).receiver);
+            }
+        }
+    };
+    schedule::chunks(out, CHUNK, threads, answer, watch);
+}
+
+impl RayHit {
+    /// Nothing was met.
+    pub const MISS: RayHit =
+        RayHit { t: f64::INFINITY, prim: NO_PRIM, object: u32::MAX, uv: [0.0; 2], receiver: None };
+}
