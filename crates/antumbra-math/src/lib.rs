@@ -3,6 +3,7 @@
 //! Everything here is pure arithmetic with the same bits on every machine: transcendental functions go through
 //! [`real`], never through the platform's library.
 
+pub mod closed;
 mod frame;
 pub mod hash;
 pub mod real;

@@ -1,6 +1,6 @@
 //! A disk that shines from its front, the side of its normal.
 
-use antumbra_math::{DVec3, Rgb, World, real, solid_angle, warp};
+use antumbra_math::{DVec3, Rgb, World, closed, real, warp};
 use antumbra_trace::{NO_PRIM, PrimId, Shape};
 
 use super::flat::Front;
@@ -95,7 +95,7 @@ impl LightKind for Disk {
         let reach = radius * (1.0 - tilt * tilt).max(0.0).sqrt();
         let height = n.dot(c);
         if height >= reach {
-            return front.irradiance(solid_angle::disk_irradiance(c, front.n, radius, n));
+            return front.irradiance(closed::disk(c, front.n, radius, n));
         }
         if height <= -reach {
             return 0.0;
@@ -107,7 +107,7 @@ impl LightKind for Disk {
             let phi = std::f64::consts::TAU * i as f64 / EDGES as f64;
             c + (s * real::cos(phi) + t * real::sin(phi)) * around
         });
-        front.irradiance(solid_angle::polygon_irradiance(&corners, n))
+        front.irradiance(closed::polygon(&corners, n))
     }
 
     fn power(&self, _scene_radius: f32) -> f32 {

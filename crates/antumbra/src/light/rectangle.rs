@@ -1,7 +1,7 @@
 //! A rectangle (or any parallelogram) that shines from its front, the side of u × v.
 
 use antumbra_math::spherical::{SphericalRectangle, SphericalTriangle};
-use antumbra_math::{DVec3, Rgb, World, solid_angle};
+use antumbra_math::{DVec3, Rgb, World, closed};
 use antumbra_trace::{NO_PRIM, PrimId};
 
 use super::flat::{Front, along_edges, largest};
@@ -185,7 +185,7 @@ impl LightKind for Rectangle {
         let (corner, u, v) = self.edges();
         let a = corner - at.p.as_dvec3();
         let corners = [a, a + u, a + u + v, a + v];
-        self.front().irradiance(solid_angle::polygon_irradiance(&corners, at.ng.as_dvec3()))
+        self.front().irradiance(closed::polygon(&corners, at.ng.as_dvec3()))
     }
 
     fn power(&self, _scene_radius: f32) -> f32 {
@@ -208,7 +208,9 @@ impl LightKind for Rectangle {
     }
 
     fn fault(&self) -> Option<String> {
-        self.front().fault("the rectangle")
+        let lost = !self.corner.is_finite();
+        let lost = lost.then(|| format!("its corner {} is not finite", self.corner));
+        lost.or_else(|| self.front().fault("the rectangle"))
     }
 
     fn set_first_prim(&mut self, first: PrimId) {

@@ -1,6 +1,6 @@
 //! A sphere that shines outwards.
 
-use antumbra_math::{DVec3, Rgb, World, real, solid_angle, warp};
+use antumbra_math::{DVec3, Rgb, World, closed, real, solid_angle, warp};
 use antumbra_trace::{NO_PRIM, PrimId, Shape};
 
 use super::flat::{amount_fault, lifted};
@@ -136,11 +136,11 @@ impl LightKind for Sphere {
         if front { self.radiance } else { Rgb::BLACK }
     }
 
-    /// π sin²α cos θ, cut by the horizon (`cone_irradiance`).
+    /// π sin²α cos θ, cut by the horizon (`closed::cone`).
     fn irradiance(&self, at: &Receiver) -> f32 {
         self.seen(at.p).map_or(0.0, |seen| {
             let cos = seen.to_center.dot(at.ng.as_dvec3()) / seen.distance;
-            solid_angle::cone_irradiance(seen.versin, cos) as f32 * self.radiance.luminance()
+            closed::cone(seen.versin, cos) as f32 * self.radiance.luminance()
         })
     }
 

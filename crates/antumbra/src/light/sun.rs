@@ -1,6 +1,6 @@
 //! A disc of the sky: the sun at its true angular size.
 
-use antumbra_math::{Frame, Rgb, World, real, solid_angle, warp};
+use antumbra_math::{Frame, Rgb, World, closed, real, solid_angle, warp};
 use antumbra_trace::NO_PRIM;
 
 use super::flat::amount_fault;
@@ -69,10 +69,10 @@ impl LightKind for Sun {
         Rgb::BLACK
     }
 
-    /// π sin²α cos θ, cut by the horizon (`cone_irradiance`).
+    /// π sin²α cos θ, cut by the horizon (`closed::cone`).
     fn irradiance(&self, at: &Receiver) -> f32 {
         let cos = self.to_light.as_dvec3().dot(at.ng.as_dvec3());
-        solid_angle::cone_irradiance(self.versin(), cos) as f32 * self.radiance.luminance()
+        closed::cone(self.versin(), cos) as f32 * self.radiance.luminance()
     }
 
     /// L_e Ω π R².

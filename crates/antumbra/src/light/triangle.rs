@@ -1,7 +1,7 @@
 //! A triangle that shines from its front, the side on which a, b, c run counter-clockwise.
 
 use antumbra_math::spherical::SphericalTriangle;
-use antumbra_math::{DVec3, Rgb, World, solid_angle, warp};
+use antumbra_math::{DVec3, Rgb, World, closed, warp};
 use antumbra_trace::{NO_PRIM, PrimId};
 
 use super::flat::{Front, along_edges, largest};
@@ -113,7 +113,7 @@ impl LightKind for Triangle {
     fn irradiance(&self, at: &Receiver) -> f32 {
         let p = at.p.as_dvec3();
         let corners = self.corners().map(|x| x - p);
-        self.front().irradiance(solid_angle::polygon_irradiance(&corners, at.ng.as_dvec3()))
+        self.front().irradiance(closed::polygon(&corners, at.ng.as_dvec3()))
     }
 
     fn power(&self, _scene_radius: f32) -> f32 {
