@@ -2,11 +2,11 @@
 
 use antumbra_math::{DVec3, Rgb};
 
-use crate::estimator::{AnyEstimator, EstimatorKind, Options};
+use crate::estimator::{AnyEstimator, EstimatorKind};
 use crate::film::{Film, Planes};
 use crate::illuminate::Job;
 use crate::light::Light;
-use crate::sampler::{AnySampler, PassPlan, SamplerOptions};
+use crate::sampler::PassPlan;
 use crate::scene::{Camera, Level, Look, Message, Projection, Scene, SceneError};
 use crate::schedule::{self, Finished, Flow, Progress};
 use crate::sensor::{CameraSensor, Seen, Tile, View};
@@ -56,7 +56,7 @@ pub fn render(
     let camera = camera(&scene, settings, &mut messages)?;
     let view = view(&camera, settings)?;
     let sensor = CameraSensor::new(&camera, view);
-    let estimator = AnyEstimator::new(settings.estimator, &scene, options(settings));
+    let estimator = AnyEstimator::new(settings.estimator, &scene, settings.options());
     for text in estimator.blind_to(&scene) {
         messages.push(Message { level: Level::Warning, place: String::new(), text });
     }
@@ -73,7 +73,7 @@ pub fn render(
         visibility: &visibility,
         sensor: &sensor,
         estimator: &estimator,
-        sampler: sampler(settings),
+        sampler: settings.sampler(),
         seed: settings.seed,
         shadow_rays: settings.shadow_rays,
         bounces: bounces(settings),
@@ -104,26 +104,6 @@ fn lit(scene: &Scene, settings: &Settings, environment: Option<Option<Light>>) -
         let hint = format!("its lights are: {}", known.join(", "));
         SceneError::new("", format!("there is no light \"{unknown}\""), hint)
     })
-}
-
-/// What estimators are made of.
-pub fn options(s: &Settings) -> Options {
-    Options {
-        shadow_rays: s.shadow_rays,
-        bounces: s.bounces,
-        lights: s.lights,
-        light_points: s.light_points,
-        directions: s.directions,
-        roulette: s.roulette,
-        radius: s.radius,
-        falloff: s.falloff,
-        mistake: s.mistake,
-    }
-}
-
-/// The sampler of the settings.
-pub fn sampler(s: &Settings) -> AnySampler {
-    AnySampler::new(s.sampler, SamplerOptions { seed: s.seed, pairing: s.pairing, rotate: s.rotate })
 }
 
 /// Estimators of direct light end after one bounce.

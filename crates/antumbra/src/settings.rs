@@ -7,10 +7,10 @@ mod value;
 
 pub use value::{SettingValue, nearest};
 
-use crate::estimator::{Directions, EstimatorKind, Falloff, LightChoice, Mistake};
+use crate::estimator::{Directions, EstimatorKind, Falloff, LightChoice, Mistake, Options};
 use crate::film::Planes;
 use crate::light::LightPoints;
-use crate::sampler::{Pairing, SamplerKind};
+use crate::sampler::{AnySampler, Pairing, SamplerKind, SamplerOptions};
 use crate::scene::Start;
 use crate::sensor::{Filter, Viewing};
 use value::choices;
@@ -205,6 +205,29 @@ choices!(Tone: Linear "linear", Filmic "filmic");
 choices!(Masks: File "file", Opaque "opaque");
 choices!(Mistake: None "none", NoCosLight "no-cos-light", NoDistance "no-distance", WrongMeasure "wrong-measure",
     CountedTwice "counted-twice", NoCount "no-count");
+
+impl Settings {
+    /// What estimators are made of.
+    pub fn options(&self) -> Options {
+        Options {
+            shadow_rays: self.shadow_rays,
+            bounces: self.bounces,
+            lights: self.lights,
+            light_points: self.light_points,
+            directions: self.directions,
+            roulette: self.roulette,
+            radius: self.radius,
+            falloff: self.falloff,
+            mistake: self.mistake,
+        }
+    }
+
+    /// Where the random numbers come from.
+    pub fn sampler(&self) -> AnySampler {
+        let options = SamplerOptions { seed: self.seed, pairing: self.pairing, rotate: self.rotate };
+        AnySampler::new(self.sampler, options)
+    }
+}
 
 fn fault(name: &str, text: &str, what: String) -> SettingError {
     let what = what.replace("{}", text);

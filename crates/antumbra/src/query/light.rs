@@ -8,7 +8,6 @@ use crate::film::{Film, Planes};
 use crate::illuminate::Job;
 use crate::light::{LightId, LightPoints};
 use crate::receiver::Receiver;
-use crate::render::{options, sampler};
 use crate::sampler::{PassPlan, Use, stream};
 use crate::scene::{Look, Scene};
 use crate::schedule::{self, Flow, Progress};
@@ -57,7 +56,7 @@ fn estimate(
     watch: &mut dyn FnMut(Progress) -> Flow,
 ) -> Estimated {
     let sensor = PointSensor { queries };
-    let one_ray = crate::estimator::Options { shadow_rays: 1, ..options(settings) };
+    let one_ray = crate::estimator::Options { shadow_rays: 1, ..settings.options() };
     let estimator = AnyEstimator::new(settings.estimator, scene, one_ray);
     let visibility = scene.visibility(settings.masks == crate::settings::Masks::Opaque);
     let paths = matches!(settings.estimator, EstimatorKind::Path | EstimatorKind::PathHemisphere);
@@ -66,7 +65,7 @@ fn estimate(
         visibility: &visibility,
         sensor: &sensor,
         estimator: &estimator,
-        sampler: sampler(settings),
+        sampler: settings.sampler(),
         seed: settings.seed,
         shadow_rays: 1,
         bounces: if paths { settings.bounces } else { 1 },
@@ -101,7 +100,7 @@ pub fn visible_fraction(
     let plan = PassPlan::of(settings.shadow_rays);
     let mut film = Film::tile(queries.len(), Planes::NONE);
     let visibility = scene.visibility(false);
-    let sampler = sampler(settings);
+    let sampler = settings.sampler();
     let (mut proposals, mut blocked) = (Proposals::default(), Bits::default());
     let mut passes_done = 0;
     for pass in 0..plan.count {
