@@ -6,7 +6,6 @@ use crate::estimator::{AnyEstimator, EstimatorKind};
 use crate::film::{Film, Planes};
 use crate::illuminate::Job;
 use crate::light::Light;
-use crate::sampler::PassPlan;
 use crate::scene::{Camera, Level, Look, Message, Projection, Scene, SceneError};
 use crate::schedule::{self, Finished, Flow, Progress};
 use crate::sensor::{CameraSensor, Seen, Tile, View};
@@ -77,7 +76,7 @@ pub fn render(
         seed: settings.seed,
         shadow_rays: settings.shadow_rays,
         bounces: bounces(settings),
-        passes: PassPlan::of(settings.viewing_rays),
+        passes: settings.passes_of(settings.viewing_rays),
         planes: settings.aov,
         look: Look { clay: settings.clay, start: settings.self_intersection },
         seen: seen(settings),

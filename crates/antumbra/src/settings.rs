@@ -10,7 +10,7 @@ pub use value::{SettingValue, nearest};
 use crate::estimator::{Directions, EstimatorKind, Falloff, LightChoice, Mistake, Options};
 use crate::film::Planes;
 use crate::light::LightPoints;
-use crate::sampler::{AnySampler, Pairing, SamplerKind, SamplerOptions};
+use crate::sampler::{AnySampler, Pairing, PassPlan, SamplerKind, SamplerOptions};
 use crate::scene::Start;
 use crate::sensor::{Filter, Viewing};
 use value::choices;
@@ -220,6 +220,13 @@ impl Settings {
             falloff: self.falloff,
             mistake: self.mistake,
         }
+    }
+
+    /// The passes of a render with `count` samples. A grid that is the same for all has no independent replicates: it is
+    /// one set, and its error is not known.
+    pub fn passes_of(&self, count: u32) -> PassPlan {
+        let fixed = self.sampler == SamplerKind::Regular && !self.rotate;
+        if fixed { PassPlan { count, replicates: 1 } } else { PassPlan::of(count) }
     }
 
     /// Where the random numbers come from.

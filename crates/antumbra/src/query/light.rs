@@ -1,6 +1,6 @@
 //! How much light arrives at points, how open they are, what part of a light they see.
 
-use antumbra_math::Vec3;
+use antumbra_math::{Rgb, Vec3};
 use antumbra_trace::{Bits, Visibility};
 
 use crate::estimator::{AnyEstimator, EstimatorKind, LightChoice, Proposals};
@@ -8,11 +8,11 @@ use crate::film::{Film, Planes};
 use crate::illuminate::Job;
 use crate::light::{LightId, LightPoints};
 use crate::receiver::Receiver;
-use crate::sampler::{PassPlan, Use, stream};
+use crate::sampler::{Use, stream};
 use crate::scene::{Look, Scene};
 use crate::schedule::{self, Flow, Progress};
 use crate::sensor::{PointSensor, Query, Seen};
-use crate::settings::Settings;
+use crate::settings::{Masks, Settings};
 
 /// An estimate for each point, with its own error.
 #[derive(Clone, Debug, Default)]
@@ -58,7 +58,7 @@ fn estimate(
     let sensor = PointSensor { queries };
     let one_ray = crate::estimator::Options { shadow_rays: 1, ..settings.options() };
     let estimator = AnyEstimator::new(settings.estimator, scene, one_ray);
-    let visibility = scene.visibility(settings.masks == crate::settings::Masks::Opaque);
+    let visibility = scene.visibility(settings.masks == Masks::Opaque);
     let paths = matches!(settings.estimator, EstimatorKind::Path | EstimatorKind::PathHemisphere);
     let job = Job {
         scene,
@@ -69,7 +69,7 @@ fn estimate(
         seed: settings.seed,
         shadow_rays: 1,
         bounces: if paths { settings.bounces } else { 1 },
-        passes: PassPlan::of(settings.shadow_rays),
+        passes: settings.passes_of(settings.shadow_rays),
         planes: Planes::NONE,
         look: Look::default(),
         seen,
@@ -95,31 +95,57 @@ pub fn visible_fraction(
     queries: &[Query],
     light: LightId,
     settings: &Settings,
-    watch: &mut dyn FnMut(Progress) -> Flow,
+    watch: &mut dyn FnMut(u64) -> Flow,
 ) -> Estimated {
-    let plan = PassPlan::of(settings.shadow_rays);
+    const CHUNK: usize = 1024;
+    let visibility = scene.visibility(settings.masks == Masks::Opaque);
+    let mut seen = vec![[f32::NAN; 2]; queries.len()];
+    let work = |from: usize, out: &mut [[f32; 2]], buffers: &mut (Proposals, Bits)| {
+        let film = light_seen(
+            scene,
+            &visibility,
+            (from, &queries[from..from + out.len()]),
+            light,
+            settings,
+            buffers,
+        );
+        for (cell, out) in out.iter_mut().enumerate() {
+            let error = film.standard_error(cell).map_or(f32::NAN, |e| e[0] as f32);
+            *out = [film.mean(Planes::BEAUTY, cell)[0] as f32, error];
+        }
+    };
+    schedule::chunks(&mut seen, CHUNK, settings.threads, work, watch);
+    Estimated {
+        values: seen.iter().map(|s| [s[0]; 3]).collect(),
+        standard_error: seen.iter().map(|s| [s[1]; 3]).collect(),
+        rays_done: settings.shadow_rays,
+    }
+}
+
+/// All samples of a run of points (number of the first, points) toward one light.
+fn light_seen(
+    scene: &Scene,
+    visibility: &dyn Visibility,
+    (from, queries): (usize, &[Query]),
+    light: LightId,
+    settings: &Settings,
+    (proposals, blocked): &mut (Proposals, Bits),
+) -> Film {
+    let (plan, sampler) = (settings.passes_of(settings.shadow_rays), settings.sampler());
     let mut film = Film::tile(queries.len(), Planes::NONE);
-    let visibility = scene.visibility(false);
-    let sampler = settings.sampler();
-    let (mut proposals, mut blocked) = (Proposals::default(), Bits::default());
-    let mut passes_done = 0;
     for pass in 0..plan.count {
         let (replicate, index, of) = plan.locate(pass);
         proposals.clear();
         for (query, cell) in queries.iter().zip(0..) {
-            let at = Receiver {
-                cell,
-                stream: stream(settings.seed, cell, replicate),
-                index,
-                ..query.receiver(1.0)
-            };
-            let u = sampler.pair(at.stream, index, of, Use::LightPoint.at(0));
+            let stream = stream(settings.seed, from as u32 + cell, replicate);
+            let at = Receiver { cell, stream, index, ..query.receiver(1.0) };
+            let u = sampler.pair(stream, index, of, Use::LightPoint.at(0));
             let sample = scene.lights()[light as usize].sample(&at, u, LightPoints::Area);
             if let Some(s) = sample.filter(|s| at.sees_side(s.wi)) {
-                proposals.segment(&at, &s, Planes::NONE, antumbra_math::Rgb::WHITE);
+                proposals.segment(&at, &s, Planes::NONE, Rgb::WHITE);
             }
         }
-        visibility.occluded(proposals.segments.as_segments(), &mut blocked);
+        visibility.occluded(proposals.segments.as_segments(), blocked);
         for (i, carried) in proposals.carried.iter().enumerate() {
             if !blocked.get(i) {
                 film.add(Planes::BEAUTY, carried.cell, carried.light);
@@ -129,25 +155,8 @@ pub fn visible_fraction(
         if plan.begin(replicate + 1) == pass + 1 {
             film.close_replicate();
         }
-        passes_done = pass + 1;
-        let progress = Progress {
-            done: u64::from(passes_done),
-            total: u64::from(plan.count),
-            passes_done,
-            passes: plan.count,
-        };
-        if watch(progress) == Flow::Stop {
-            break;
-        }
     }
-    let f32s = |v: [f64; 3]| v.map(|c| c as f32);
-    Estimated {
-        values: (0..queries.len()).map(|cell| f32s(film.mean(Planes::BEAUTY, cell))).collect(),
-        standard_error: (0..queries.len())
-            .map(|cell| film.standard_error(cell).map_or([f32::NAN; 3], f32s))
-            .collect(),
-        rays_done: passes_done,
-    }
+    film
 }
 
 /// One light point for each query, from three numbers each (which light, where on it): what a student's own estimator
