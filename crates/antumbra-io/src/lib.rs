@@ -9,11 +9,12 @@ mod format;
 mod limits;
 pub mod picture;
 mod read;
+mod srgb;
 
 pub use error::{ReadError, WriteError};
 pub use files::{FileError, Files, FolderFiles, MemoryFiles};
 pub use format::{Format, READS, format_of};
 pub use limits::Limits;
-pub use read::{ReadOptions, UpAxis, read, read_path};
-/// stub
-pub fn read_environment(_: &std::path::Path, _: &ReadOptions) -> Result<(antumbra::light::Environment, Vec<antumbra::scene::Message>), ReadError> { Err(ReadError::new("", "x")) }
+pub use read::{
+    EnvironmentPicture, ReadOptions, UpAxis, environment_picture, read, read_environment, read_path,
+};

@@ -3,11 +3,11 @@
 use std::io::Cursor;
 use std::path::Path;
 
-use super::tone::decode;
 use super::{Look, Picture, write_whole};
 use crate::error::{ReadError, WriteError};
 use crate::files::read_limited;
 use crate::limits::Limits;
+use crate::srgb::decode;
 
 /// Writes a picture as a PNG, whole or not at all.
 pub fn write_png(path: &Path, picture: &Picture, look: &Look) -> Result<(), WriteError> {

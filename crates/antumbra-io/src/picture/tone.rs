@@ -2,6 +2,8 @@
 
 use antumbra_math::real;
 
+use crate::srgb::decode;
+
 /// A tone curve by its name.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Tone {
@@ -54,11 +56,6 @@ impl Codes {
     pub(super) fn encode(&self, linear: f32) -> u8 {
         self.0.partition_point(|t| linear >= *t) as u8
     }
-}
-
-/// sRGB → linear (IEC 61966-2-1).
-pub(super) fn decode(c: f64) -> f32 {
-    (if c <= 0.04045 { c / 12.92 } else { real::pow((c + 0.055) / 1.055, 2.4) }) as f32
 }
 
 impl Look {

@@ -1,9 +1,16 @@
 //! Readers: bytes → scene builder. One file or folder per format; to add one, add its line to [`read`] and to
 //! `format.rs`.
 
+mod environment;
 pub(crate) mod exr;
 mod gltf;
+mod hdr;
+mod obj;
+mod ply;
+mod polygon;
+mod stl;
 mod texels;
+mod text;
 mod uri;
 
 use std::path::{Path, PathBuf};
@@ -15,6 +22,8 @@ use crate::error::ReadError;
 use crate::files::{Files, FolderFiles, read_limited};
 use crate::format::{Format, READS, format_of};
 use crate::limits::{Allowance, Limits};
+
+pub use environment::{EnvironmentPicture, environment_picture, read_environment};
 
 /// What every reader gets besides the bytes.
 pub(crate) struct Context<'a> {
@@ -42,6 +51,12 @@ impl Context<'_> {
         self.memory.grant(bytes.saturating_mul(self.limits.expansion));
     }
 }
+
+/// Albedo of surfaces whose file says nothing about them.
+pub(crate) const GREY: f32 = 0.5;
+
+/// The words for polygons that [`polygon::Triangulator`] gave up on.
+pub(crate) const INTRICATE: &str = "some polygons are too intricate: part of them is cut as a fan";
 
 /// Which axis of a file points up.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -109,11 +124,14 @@ fn context<'a>(
 fn read_as(format: Format, bytes: &[u8], context: &Context) -> Result<SceneBuilder, ReadError> {
     match format {
         Format::Gltf => gltf::read(bytes, context),
+        Format::Obj => obj::read(bytes, context),
+        Format::Ply => ply::read(bytes, context),
+        Format::Stl => stl::read(bytes, context),
+        Format::Environment => environment::read(bytes, context),
         Format::NotRead(name) => {
-            Err(ReadError::new("", format!("{name} is not read yet"))
-                .hint(format!("antumbra reads {READS}.")))
+            let what = format!("{name} is not read yet");
+            Err(ReadError::new("", what).hint(format!("antumbra reads {READS}.")))
         }
-        _ => Err(ReadError::new("", "not read yet")),
     }
 }
 
@@ -151,10 +169,18 @@ pub(crate) struct Counted(Vec<(Message, usize)>);
 impl Counted {
     /// Says `text` about `place`; the same text again only counts.
     pub(crate) fn warn(&mut self, place: impl Into<String>, text: impl Into<String>) {
-        let text = text.into();
+        self.say(Level::Warning, place.into(), text.into());
+    }
+
+    /// The same as a note.
+    pub(crate) fn note(&mut self, place: impl Into<String>, text: impl Into<String>) {
+        self.say(Level::Note, place.into(), text.into());
+    }
+
+    fn say(&mut self, level: Level, place: String, text: String) {
         match self.0.iter_mut().find(|(m, _)| m.text == text) {
             Some((_, n)) => *n += 1,
-            None => self.0.push((Message { level: Level::Warning, place: place.into(), text }, 1)),
+            None => self.0.push((Message { level, place, text }, 1)),
         }
     }
 

@@ -23,7 +23,7 @@ pub(super) fn open(bytes: &[u8], named_glb: bool) -> Result<Container<'_>, ReadE
         return glb(bytes);
     }
     let json = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-    if json.iter().find(|b| !b.is_ascii_whitespace()).is_none_or(|b| !matches!(b, b'{' | b'[')) {
+    if json.iter().find(|b| !b.is_ascii_whitespace()).is_none_or(|b| *b != b'{') {
         let what = if named_glb {
             "this is no GLB: it does not begin with \"glTF\""
         } else {

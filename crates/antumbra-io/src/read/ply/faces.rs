@@ -1,0 +1,88 @@
+//! The faces of a PLY: polygons of any size, cut into triangles.
+
+use super::header::{Element, Encoding, Kind};
+use super::numbers::Numbers;
+use crate::read::polygon::Triangulator;
+
+/// What was read.
+pub(super) struct Faces {
+    pub triangles: Vec<[u32; 3]>,
+    /// Faces with less than three corners.
+    pub small: usize,
+}
+
+const NAMES: &[&str] = &["vertex_indices", "vertex_index"];
+
+/// Reads the faces; every index is below the number of vertices.
+pub(super) fn read(
+    e: &Element,
+    encoding: Encoding,
+    numbers: &mut Numbers,
+    vertices: &[[f32; 3]],
+    corners: usize,
+    cutter: &mut Triangulator,
+) -> Result<Faces, String> {
+    let Some(list) = e.find(NAMES).filter(|i| e.properties[*i].length.is_some()) else {
+        return Err("has no list vertex_indices".into());
+    };
+    if let Some(faces) = all_triangles(e, encoding, numbers, vertices.len())? {
+        return Ok(faces);
+    }
+    let mut faces = Faces { triangles: Vec::with_capacity(e.count), small: 0 };
+    let mut polygon = Vec::new();
+    for row in 0..e.count {
+        for (i, p) in e.properties.iter().enumerate() {
+            let Some(length) = p.length else {
+                numbers.float(p.kind)?;
+                continue;
+            };
+            let n = numbers.integer(length)? as usize;
+            if n > numbers.left() || n > corners {
+                return Err(format!("face {row} announces {n} corners"));
+            }
+            if i != list {
+                (0..n).try_for_each(|_| numbers.float(p.kind).map(drop))?;
+                continue;
+            }
+            polygon.clear();
+            for _ in 0..n {
+                let index = numbers.integer(p.kind).map_err(|e| format!("face {row}: {e}"))?;
+                if index as usize >= vertices.len() {
+                    return Err(format!("face {row} has the index {index} of {} vertices", vertices.len()));
+                }
+                polygon.push(index);
+            }
+            faces.small += usize::from(n < 3);
+            let place = |i: usize| vertices[polygon[i] as usize];
+            cutter.cut(n, place, |t| faces.triangles.push(t.map(|i| polygon[i])));
+        }
+    }
+    Ok(faces)
+}
+
+/// The common case at full speed: nothing but triangles with 32-bit indices in the order of this machine.
+fn all_triangles(
+    e: &Element,
+    encoding: Encoding,
+    numbers: &mut Numbers,
+    vertices: usize,
+) -> Result<Option<Faces>, String> {
+    let [p] = &e.properties[..] else { return Ok(None) };
+    let plain = p.length == Some(Kind::U8) && matches!(p.kind, Kind::I32 | Kind::U32);
+    let Numbers::Bytes(rest, _) = *numbers else { return Ok(None) };
+    const ROW: usize = 13;
+    let Some(rows) = rest.get(..e.count.saturating_mul(ROW)) else { return Ok(None) };
+    if !plain || encoding != Encoding::Little || rows.chunks_exact(ROW).any(|r| r[0] != 3) {
+        return Ok(None);
+    }
+    let triangle = |r: &[u8]| bytemuck::pod_read_unaligned::<[u32; 3]>(&r[1..]);
+    let triangles: Vec<[u32; 3]> = rows.chunks_exact(ROW).map(triangle).collect();
+    // Negative indices are the largest of all as unsigned numbers.
+    let largest = triangles.as_flattened().iter().fold(0, |m, i| m.max(*i));
+    if largest as usize >= vertices && e.count > 0 {
+        let row = triangles.iter().position(|t| t.contains(&largest)).unwrap_or(0);
+        return Err(format!("face {row} has the index {} of {vertices} vertices", largest as i32));
+    }
+    numbers.bytes(rows.len())?;
+    Ok(Some(Faces { triangles, small: 0 }))
+}

@@ -1,0 +1,92 @@
+//! PLY, ASCII and binary of either byte order (G. Turk, "The PLY Polygon File Format", 1994).
+
+mod faces;
+mod header;
+mod numbers;
+mod vertices;
+
+use antumbra::scene::{Material, Mesh, SceneBuilder};
+use antumbra_math::Rgb;
+
+use header::{Element, Encoding, Header};
+use numbers::Numbers;
+
+use super::polygon::Triangulator;
+use super::{Context, Counted, GREY};
+use crate::error::ReadError;
+
+const CUT: &str = "The file is cut short, or its exporter is wrong.";
+
+/// Reads a `.ply`.
+pub(super) fn read(bytes: &[u8], context: &Context) -> Result<SceneBuilder, ReadError> {
+    let header = header::read(bytes, context.limits)?;
+    let mut cutter = Triangulator::new();
+    let (mesh, small) = mesh(&header, bytes, context, &mut cutter)?;
+    let (mut scene, mut said) = (SceneBuilder::default(), Counted::default());
+    if small > 0 {
+        said.warn("faces", format!("{small} with less than three corners are not drawn"));
+    }
+    if cutter.gave_up() {
+        said.warn("faces", super::INTRICATE);
+    }
+    if mesh.triangles.indices.is_empty() {
+        let hint = "Point clouds have no surface; make a mesh of them first.";
+        return Err(ReadError::new("", "there is nothing to render: no faces").hint(hint));
+    }
+    let albedo = if mesh.colors.is_some() { 1.0 } else { GREY };
+    let material = scene.material(Material::diffuse(Rgb::grey(albedo)));
+    let id = scene.mesh(mesh);
+    scene.place("", id, material, context.root);
+    let encoding = match header.encoding {
+        Encoding::Ascii => "ASCII",
+        Encoding::Little => "binary, little endian",
+        Encoding::Big => "binary, big endian",
+    };
+    scene.source = format!("PLY, {encoding}");
+    scene.sky_if_unlit = true;
+    said.into_scene(&mut scene);
+    Ok(scene)
+}
+
+/// The mesh and the number of faces that are too small. What follows the faces is not looked at.
+fn mesh(
+    header: &Header,
+    bytes: &[u8],
+    context: &Context,
+    cutter: &mut Triangulator,
+) -> Result<(Mesh, usize), ReadError> {
+    let mut numbers = Numbers::new(&bytes[header.data..], header.encoding);
+    let mut mesh: Option<Mesh> = None;
+    for e in &header.elements {
+        let fail = |what: String| ReadError::new(format!("element {}", e.name), what).hint(CUT);
+        context.take(e.count as u64, 8 * e.properties.len() as u64 + 48).map_err(fail)?;
+        match (e.name.as_str(), &mut mesh) {
+            ("vertex", None) => mesh = Some(vertices::read(e, header.encoding, &mut numbers).map_err(fail)?),
+            ("face", Some(mesh)) => {
+                let limit = context.limits.corners;
+                let vertices = &mesh.triangles.vertices;
+                let faces =
+                    faces::read(e, header.encoding, &mut numbers, vertices, limit, cutter).map_err(fail)?;
+                mesh.triangles.indices = faces.triangles;
+                return Ok((std::mem::take(mesh), faces.small));
+            }
+            ("face", None) => return Err(fail("stands before the vertices".into())),
+            _ => skip(e, header.encoding, &mut numbers).map_err(fail)?,
+        }
+    }
+    mesh.map(|m| (m, 0)).ok_or_else(|| ReadError::new("header", "there is no element vertex"))
+}
+
+/// Passes over an element that is not asked for.
+fn skip(e: &Element, encoding: Encoding, numbers: &mut Numbers) -> Result<(), String> {
+    if encoding != Encoding::Ascii
+        && let Some(row) = e.row()
+    {
+        return numbers.bytes(e.count.saturating_mul(row)).map(drop);
+    }
+    for p in (0..e.count).flat_map(|_| &e.properties) {
+        let n = p.length.map_or(Ok(1), |length| numbers.integer(length))?;
+        (0..n).try_for_each(|_| numbers.float(p.kind).map(drop))?;
+    }
+    Ok(())
+}
