@@ -5,7 +5,8 @@
 
 mod value;
 
-pub use value::{SettingValue, nearest};
+pub use crate::scene::nearest;
+pub use value::SettingValue;
 
 use crate::estimator::{Directions, EstimatorKind, Falloff, LightChoice, Mistake, Options};
 use crate::film::Planes;

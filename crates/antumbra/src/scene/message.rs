@@ -38,3 +38,32 @@ impl SceneError {
         SceneError { place: place.into(), what: what.into(), hint: hint.into() }
     }
 }
+
+/// The known word nearest to `text`, if one is near (edit distance at most a third of its length, and at most 3).
+pub fn nearest<'a>(text: &str, known: &[&'a str]) -> Option<&'a str> {
+    let distance = |word: &str| {
+        let (a, b): (Vec<char>, Vec<char>) = (text.to_lowercase().chars().collect(), word.chars().collect());
+        let mut row: Vec<usize> = (0..=b.len()).collect();
+        let mut above_left_row = row.clone();
+        for i in 1..=a.len() {
+            let before = row.clone();
+            row[0] = i;
+            for j in 1..=b.len() {
+                let change = usize::from(a[i - 1] != b[j - 1]);
+                row[j] = (before[j] + 1).min(row[j - 1] + 1).min(before[j - 1] + change);
+                let swapped = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
+                if swapped {
+                    row[j] = row[j].min(above_left_row[j - 2] + 1);
+                }
+            }
+            above_left_row = before;
+        }
+        row[b.len()]
+    };
+    known
+        .iter()
+        .map(|word| (distance(word), *word))
+        .filter(|(d, word)| *d <= 3.min(1 + word.len() / 3))
+        .min_by_key(|(d, _)| *d)
+        .map(|(_, word)| word)
+}

@@ -16,6 +16,6 @@ pub use areas::{SurfaceAreas, SurfacePoint};
 pub use builder::{Body, Mesh, MeshId, Object, SceneBuilder};
 pub use camera::{Camera, Projection};
 pub use material::{Alpha, Emission, Material, MaterialId, Surface, TextureId};
-pub use message::{Level, Message, SceneError};
+pub use message::{Level, Message, SceneError, nearest};
 pub use scene::{Emits, LightNames, Placed, Scene, SceneMesh};
 pub use surface::{Look, Met, Start};

@@ -1,5 +1,6 @@
 //! How a setting's value is read from what a person wrote, and written back.
 
+use super::nearest;
 use crate::film::Planes;
 use crate::scene::Start;
 
@@ -39,35 +40,6 @@ pub(super) use choices;
 pub(super) fn no_such_word(text: &str, words: &[&str]) -> String {
     let hint = nearest(text, words).map(|w| format!("; did you mean \"{w}\"?")).unwrap_or_default();
     format!("there is no \"{text}\"{hint} ({})", words.join(", "))
-}
-
-/// The known word nearest to `text`, if one is near (edit distance at most a third of its length, and at most 3).
-pub fn nearest<'a>(text: &str, known: &[&'a str]) -> Option<&'a str> {
-    let distance = |word: &str| {
-        let (a, b): (Vec<char>, Vec<char>) = (text.to_lowercase().chars().collect(), word.chars().collect());
-        let mut row: Vec<usize> = (0..=b.len()).collect();
-        let mut above_left_row = row.clone();
-        for i in 1..=a.len() {
-            let before = row.clone();
-            row[0] = i;
-            for j in 1..=b.len() {
-                let change = usize::from(a[i - 1] != b[j - 1]);
-                row[j] = (before[j] + 1).min(row[j - 1] + 1).min(before[j - 1] + change);
-                let swapped = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
-                if swapped {
-                    row[j] = row[j].min(above_left_row[j - 2] + 1);
-                }
-            }
-            above_left_row = before;
-        }
-        row[b.len()]
-    };
-    known
-        .iter()
-        .map(|word| (distance(word), *word))
-        .filter(|(d, word)| *d <= 3.min(1 + word.len() / 3))
-        .min_by_key(|(d, _)| *d)
-        .map(|(_, word)| word)
 }
 
 macro_rules! numbers {

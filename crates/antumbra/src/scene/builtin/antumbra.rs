@@ -57,7 +57,7 @@ fn build(values: &Values) -> SceneBuilder {
     let (corner, u, v) = (DVec3::new(-5.0, 10.0, -2.0), DVec3::X * 10.0, DVec3::Z * 8.0);
     scene.light("fill", Rectangle::new(corner.as_vec3(), u.as_vec3(), v.as_vec3(), cool));
 
-    let eye = DVec3::new(0.5, 7.6, 10.6);
-    scene.cameras.push(Camera::perspective(eye, DVec3::new(0.35, 0.85, 0.45), 30.5).sized(800, 480));
+    let eye = DVec3::new(0.7, 7.6, 10.8);
+    scene.cameras.push(Camera::perspective(eye, DVec3::new(0.55, 0.8, 0.5), 31.0).sized(800, 480));
     scene
 }

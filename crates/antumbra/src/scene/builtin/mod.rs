@@ -21,7 +21,7 @@ mod tests;
 pub use sky::default_sky;
 pub use sky_dome::under;
 
-use super::{SceneBuilder, SceneError};
+use super::{SceneBuilder, SceneError, nearest};
 
 /// A number that people may set with `-D name=value`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -82,10 +82,10 @@ pub const SCENES: &[Builtin] = &[
 
 /// The built-in scene of this name.
 pub fn find(name: &str) -> Result<&'static Builtin, SceneError> {
-    let names = SCENES.iter().map(|s| s.name);
     SCENES.iter().find(|s| s.name == name).ok_or_else(|| {
-        let guess = did_you_mean(name, names.clone());
-        let all = names.collect::<Vec<_>>().join(", ");
+        let names: Vec<&str> = SCENES.iter().map(|s| s.name).collect();
+        let guess = did_you_mean(name, &names);
+        let all = names.join(", ");
         SceneError::new(
             "",
             format!("there is no built-in scene \"{name}\"{guess}"),
@@ -108,12 +108,12 @@ pub fn build(name: &str, set: &[(String, f64)]) -> Result<SceneBuilder, SceneErr
 
 /// Index of the parameter called `key`.
 fn parameter(scene: &Builtin, key: &str) -> Result<usize, SceneError> {
-    let names = scene.parameters.iter().map(|p| p.name);
-    names.clone().position(|n| n == key).ok_or_else(|| {
-        let guess = did_you_mean(key, names.clone());
-        let hint = match names.collect::<Vec<_>>().join(", ") {
-            all if all.is_empty() => "It has none.".into(),
-            all => format!("There are: {all}."),
+    scene.parameters.iter().position(|p| p.name == key).ok_or_else(|| {
+        let names: Vec<&str> = scene.parameters.iter().map(|p| p.name).collect();
+        let guess = did_you_mean(key, &names);
+        let hint = match names.as_slice() {
+            [] => "It has none.".into(),
+            names => format!("There are: {}.", names.join(", ")),
         };
         SceneError::new(scene.name, format!("there is no parameter \"{key}\"{guess}"), hint)
     })
@@ -133,25 +133,6 @@ fn check(scene: &Builtin, of: &Parameter, value: f64) -> Result<(), SceneError> 
 }
 
 /// "; did you mean …?" if one of the names is near.
-fn did_you_mean<'a>(name: &str, names: impl Iterator<Item = &'a str>) -> String {
-    let nearest = names.map(|n| (edits(name, n), n)).min();
-    match nearest {
-        Some((edits, guess)) if edits <= 1 + guess.len() / 3 => format!("; did you mean \"{guess}\"?"),
-        _ => String::new(),
-    }
-}
-
-/// How many letters must be changed, put in or left out to make `b` of `a` (Levenshtein's distance).
-fn edits(a: &str, b: &str) -> usize {
-    let mut row: Vec<usize> = (0..=b.chars().count()).collect();
-    for (i, x) in a.chars().enumerate() {
-        let mut diagonal = row[0];
-        row[0] = i + 1;
-        for (j, y) in b.chars().enumerate() {
-            let change = diagonal + usize::from(x != y);
-            diagonal = row[j + 1];
-            row[j + 1] = change.min(diagonal + 1).min(row[j] + 1);
-        }
-    }
-    row[b.chars().count()]
+fn did_you_mean(name: &str, names: &[&str]) -> String {
+    nearest(name, names).map_or_else(String::new, |guess| format!("; did you mean \"{guess}\"?"))
 }

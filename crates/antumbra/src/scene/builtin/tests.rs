@@ -227,6 +227,33 @@ fn eclipse_has_true_distances() {
 }
 
 #[test]
+fn the_umbra_of_the_lowest_ball_reaches_the_floor_and_that_of_the_highest_does_not() {
+    use antumbra_math::real;
+    let scene = default("antumbra");
+    let Some((_, Light::Disk(light))) = scene.lights.first() else { panic!("the light is a disk") };
+    let lamp = light.center.as_dvec3();
+    // On the floor, in the middle of a ball's shadow: the disk of the light against the ball that covers it.
+    let covers = |center: [f32; 3], radius: f32| {
+        let ball = DVec3::from(center.map(f64::from));
+        let along = (ball - lamp) / (ball.y - lamp.y);
+        let floor = ball - along * ball.y;
+        let half_angle = real::asin(f64::from(radius) / (ball - floor).length());
+        half_angle - real::atan(f64::from(light.radius) / (lamp - floor).length())
+    };
+    let margins: Vec<f64> = scene
+        .objects
+        .iter()
+        .filter_map(|o| match o.body {
+            Body::Shape(Shape::Sphere { center, radius }) => Some(covers(center, radius)),
+            _ => None,
+        })
+        .collect();
+    assert_eq!(margins.len(), 5);
+    assert!(margins.windows(2).all(|pair| pair[0] > pair[1]), "{margins:?}");
+    assert!(margins[1] > 0.0 && margins[3] < 0.0, "{margins:?}");
+}
+
+#[test]
 fn wrong_names_and_values_are_told_with_a_way_out() {
     let error = |name: &str, set: &[(&str, f64)]| {
         let set: Vec<_> = set.iter().map(|(n, v)| ((*n).to_string(), *v)).collect();

@@ -45,7 +45,7 @@ fn build(_: &Values) -> SceneBuilder {
     plant::add(&mut scene, DVec3::new(-2.3, 0.0, -1.95));
 
     ceiling_light(&mut scene, white);
-    scene.light("sky", Environment::image(Arc::new(sky(DVec3::new(-0.80, 0.50, 0.22), 1.0, 2.2))));
+    scene.light("sky", Environment::image(Arc::new(sky(DVec3::new(-0.80, 0.50, 0.22), 0.3, 2.2))));
 
     let eye = DVec3::new(2.62, 1.50, 2.32);
     scene.cameras.push(Camera::perspective(eye, DVec3::new(-0.62, 0.74, -1.0), 52.0).sized(800, 560));
