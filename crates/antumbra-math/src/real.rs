@@ -1,6 +1,6 @@
 //! Transcendental functions with the same bits on every platform (from the `libm` crate).
 
-pub use libm::{acos, asin, atan, atan2, cbrt, ceil, cos, exp, floor, log, pow, round, sin, tan};
+pub use libm::{acos, asin, atan, atan2, cbrt, ceil, cos, exp, floor, log, pow, round, sin, sincos, tan};
 pub use libm::{
     acosf, asinf, atan2f, atanf, cosf, exp2f, expf, floorf, log2f, logf, powf, roundf, sinf, tanf,
 };

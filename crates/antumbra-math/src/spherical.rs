@@ -43,7 +43,7 @@ impl SphericalTriangle {
         let [a, b, c] = self.corners;
         // The corner c′ on the arc from a to c with Ω(a, b, c′) = u₀Ω: its bisector with a is h.
         let half = 0.5 * u[0] * self.solid_angle;
-        let (sin, cos) = (real::sin(half), real::cos(half));
+        let (sin, cos) = real::sincos(half);
         let h = a * (self.volume * cos - sin * (b.dot(c) + a.dot(c))) + c * (sin * (1.0 + a.dot(b)));
         let c1 = h * (2.0 * a.dot(h) / h.length_squared()) - a;
         // On the arc from b to c′, 1 − cos uniform: with q = |c′ − b|² = 2(1 − b·c′) and t the share of the sine,
@@ -56,6 +56,9 @@ impl SphericalTriangle {
 }
 
 /// A spherical rectangle ready for sampling (Ureña, Fajardo and King 2013).
+///
+/// Their four angles γ are needed only in sums: as complex numbers with those angles they are multiplied, so that one
+/// arctangent gives Ω and none the phase at which the columns begin.
 #[derive(Clone, Copy, Debug)]
 pub struct SphericalRectangle {
     /// The rectangle in its own frame: x from `x[0]` to `x[1]`, y from `y[0]` to `y[1]`, at height −`z`.
@@ -64,20 +67,20 @@ pub struct SphericalRectangle {
     z: f64,
     /// z of the normals of the planes through the lower and the upper edge.
     b: [f64; 2],
-    /// 2π − γ₂ − γ₃.
-    k: f64,
+    /// cos and sin of k = 2π − γ₂ − γ₃.
+    k: [f64; 2],
     /// Ω [sr].
     pub solid_angle: f64,
 }
 
 impl SphericalRectangle {
-    /// Below this the sum of the four angles has lost more than six digits.
+    /// Below this (and this near to 2π) the sum of the four angles has lost more than six digits.
     const SMALLEST: f64 = 1e-6;
     /// Below this height, as a part of the reach, the columns lose their digits.
     const GRAZING: f64 = 1e-4;
 
-    /// The rectangle (corner, u, v), u ⊥ v; `None` if it looks too small or too flat for the sum of its
-    /// angles (take its two triangles then).
+    /// The rectangle (corner, u, v), u ⊥ v; `None` if it looks too small or too flat for the sum of its angles (take
+    /// its two triangles then).
     #[inline]
     pub fn new(corner: DVec3, u: DVec3, v: DVec3) -> Option<SphericalRectangle> {
         let (lu, lv) = (u.length(), v.length());
@@ -87,20 +90,21 @@ impl SphericalRectangle {
         if z <= Self::GRAZING * (x0.abs().max(x1.abs()) + y0.abs().max(y1.abs())) {
             return None;
         }
-        // z components of the normals of the four planes, and what their squares lack from 1.
-        let edges = [-y0, x1, y1, -x0];
-        let n = edges.map(|w| w / (w * w + z * z).sqrt());
-        let s = edges.map(|w| z * z / (w * w + z * z));
-        // acos(−nᵢ nⱼ) without the loss of acos near its ends.
-        let angle = |i: usize, j: usize| real::atan2((s[i] + s[j] - s[i] * s[j]).sqrt(), -n[i] * n[j]);
-        let k = 2.0 * PI - angle(2, 3) - angle(3, 0);
-        let solid_angle = angle(0, 1) + angle(1, 2) - k;
-        (solid_angle > Self::SMALLEST).then_some(SphericalRectangle {
+        // γ between the planes of two edges that meet in a corner at distance r: cos ∝ ∓xy, sin ∝ zr.
+        let angle = |x: f64, y: f64, sign: f64| [sign * x * y, z * (x * x + y * y + z * z).sqrt()];
+        let lower = times(angle(x1, y0, 1.0), angle(x1, y1, -1.0));
+        let upper = times(angle(x0, y1, 1.0), angle(x0, y0, -1.0));
+        let [cos, sin] = times(lower, upper);
+        // γ₀ + γ₁ + γ₂ + γ₃ − 2π, in (0, 2π).
+        let angle = real::atan2(sin, cos);
+        let solid_angle = if angle < 0.0 { angle + 2.0 * PI } else { angle };
+        let size = (upper[0] * upper[0] + upper[1] * upper[1]).sqrt();
+        (angle.abs() > Self::SMALLEST).then(|| SphericalRectangle {
             x: [x0, x1],
             y: [y0, y1],
             z,
-            b: [n[0], n[2]],
-            k,
+            b: [-y0 / (y0 * y0 + z * z).sqrt(), y1 / (y1 * y1 + z * z).sqrt()],
+            k: [upper[0] / size, -upper[1] / size],
             solid_angle,
         })
     }
@@ -108,18 +112,25 @@ impl SphericalRectangle {
     /// The point (α, β) of the rectangle, corner + α u + β v, whose direction is uniform in the solid angle.
     #[inline]
     pub fn sample(&self, u: [f64; 2]) -> [f64; 2] {
-        let [x0, x1] = self.x;
-        let [y0, y1] = self.y;
-        // The column x up to which the part u₀ of the solid angle lies.
-        let a = u[0] * self.solid_angle + self.k;
-        let f = (real::cos(a) * self.b[0] - self.b[1]) / real::sin(a);
-        let c = (1f64.copysign(f) / (f * f + self.b[0] * self.b[0]).sqrt()).clamp(-1.0, 1.0);
-        let x = (c * self.z / (1.0 - c * c).sqrt()).clamp(x0, x1);
+        let ([x0, x1], [y0, y1], z2) = (self.x, self.y, self.z * self.z);
+        // The column x up to which the part u₀ of the solid angle lies: f = (b₀ cos a − b₁)/sin a at a = u₀Ω + k,
+        // x = z/√(f² + b₀² − 1) on the side of f.
+        let (sin, cos) = real::sincos(u[0] * self.solid_angle);
+        let [cos, sin] = times([cos, sin], self.k);
+        let f = cos * self.b[0] - self.b[1];
+        let root = (f * f - z2 / (y0 * y0 + z2) * (sin * sin)).max(f64::MIN_POSITIVE).sqrt();
+        let x = ((self.z * sin).copysign(f * sin) / root).clamp(x0, x1);
         // On it, sines of the latitude are uniform.
-        let d2 = x * x + self.z * self.z;
+        let d2 = x * x + z2;
         let sine = |y: f64| y / (d2 + y * y).sqrt();
         let s = sine(y0) + u[1] * (sine(y1) - sine(y0));
         let y = (s * (d2 / (1.0 - s * s)).sqrt()).clamp(y0, y1);
         [(x - x0) / (x1 - x0), (y - y0) / (y1 - y0)]
     }
+}
+
+/// The product of two complex numbers: their angles add.
+#[inline]
+fn times([a, b]: [f64; 2], [c, d]: [f64; 2]) -> [f64; 2] {
+    [a * c - b * d, a * d + b * c]
 }

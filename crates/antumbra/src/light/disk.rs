@@ -56,6 +56,11 @@ impl Disk {
 
 /// Edges of the polygon around a disk that the horizon cuts.
 const EDGES: usize = 16;
+/// Cosine and sine of a sixteenth of a turn.
+const COS_STEP: f64 = 0.923_879_532_511_286_7;
+const SIN_STEP: f64 = 0.382_683_432_365_089_8;
+/// Cosine of half of that.
+const COS_HALF_STEP: f64 = 0.980_785_280_403_230_4;
 
 impl LightKind for Disk {
     /// Uniform on the area for both ways of drawing (the solid angle of a disk has no elementary map):
@@ -101,11 +106,13 @@ impl LightKind for Disk {
             return 0.0;
         }
         let (s, t) = front.n.any_orthonormal_pair();
+        let around = radius / COS_HALF_STEP;
+        let mut spoke = (1.0, 0.0);
         // Counter-clockwise seen from the front: n = s × t.
-        let around = radius / real::cos(std::f64::consts::PI / EDGES as f64);
-        let corners: [DVec3; EDGES] = std::array::from_fn(|i| {
-            let phi = std::f64::consts::TAU * i as f64 / EDGES as f64;
-            c + (s * real::cos(phi) + t * real::sin(phi)) * around
+        let corners: [DVec3; EDGES] = std::array::from_fn(|_| {
+            let (x, y) = spoke;
+            spoke = (x * COS_STEP - y * SIN_STEP, x * SIN_STEP + y * COS_STEP);
+            c + (s * x + t * y) * around
         });
         front.irradiance(closed::polygon(&corners, n))
     }

@@ -136,6 +136,11 @@ pub trait LightKind {
     /// Unoccluded irradiance at `at` on the side of its geometric normal, luminance [W/m²], exact or estimated; above 0
     /// wherever the light can contribute.
     fn irradiance(&self, at: &Receiver) -> f32;
+    /// A cheap stand-in for [`irradiance`](LightKind::irradiance), within a few percent of it where that takes long;
+    /// above 0 wherever it is.
+    fn weight(&self, at: &Receiver) -> f32 {
+        self.irradiance(at)
+    }
     /// Emitted power, luminance [W]; for lights at infinity through a disk of `scene_radius`.
     fn power(&self, scene_radius: f32) -> f32;
     /// Where it is.
@@ -183,6 +188,7 @@ macro_rules! kinds {
                 hit(from: World, wi: World) (from, wi) -> Option<LightHit>;
                 emitted(wi: World, front: bool) (wi, front) -> Rgb;
                 irradiance(at: &Receiver) (at) -> f32;
+                weight(at: &Receiver) (at) -> f32;
                 power(scene_radius: f32) (scene_radius) -> f32;
                 bounds() () -> LightBounds;
                 outline(at: &Receiver, u: f32) (at, u) -> Option<OutlinePoint>;

@@ -113,7 +113,7 @@ fn sky(width: u32, height: u32, radiance: impl Fn(World) -> f32) -> Arc<Image> {
 
 /// E by sampling, with its standard error.
 fn sampled(light: &Light, at: &Receiver, seed: u32) -> (f64, f64) {
-    mean(draws(light, at, LightPoints::SolidAngle, 200_000, seed).map(|s| {
+    mean(draws(light, at, LightPoints::SolidAngle, 100_000, seed).map(|s| {
         s.map_or(0.0, |s| f64::from(s.radiance.0[0] * s.wi.dot(at.ng).max(0.0) / s.density.weight()))
     }))
 }

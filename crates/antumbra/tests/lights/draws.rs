@@ -8,7 +8,7 @@ use antumbra::receiver::Receiver;
 
 use crate::{HOWS, draws, numbers, receivers};
 
-const N: u32 = 20_000;
+const N: u32 = 12_000;
 
 /// Every example that fills a solid angle × every receiver × both ways of drawing, with its number.
 fn cases() -> impl Iterator<Item = (String, Light, Receiver, LightPoints, u32)> {
@@ -61,12 +61,12 @@ fn integrate(
     how: LightPoints,
 ) -> Grid {
     let pdf = |d: World| f64::from(light.pdf(at, d, how));
-    let grid = over_cap(bins, axis, half_angle, (240, 320), pdf);
-    if grid.found >= 15_000 || light.is_infinite() { grid } else { over_area(bins, light, at, pdf) }
+    let grid = over_cap(bins, axis, half_angle, (200, 260), pdf);
+    if grid.found >= 10_000 || light.is_infinite() { grid } else { over_area(bins, light, at, pdf) }
 }
 
 fn over_area(bins: &SphereBins, light: &Light, at: &Receiver, pdf: impl Fn(World) -> f64) -> Grid {
-    const SIDE: u32 = 512;
+    const SIDE: u32 = 400;
     let mut grid = Grid { share: vec![0.0; bins.len()], support: 0.0, found: 0 };
     for i in 0..SIDE * SIDE {
         let jitter = numbers(i, 4712);

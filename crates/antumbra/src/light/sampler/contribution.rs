@@ -1,4 +1,4 @@
-//! Lights in proportion to the irradiance that each would give the receiver, were nothing in the way.
+//! Lights in proportion to about the irradiance that each would give the receiver, were nothing in the way.
 
 use super::{Chooser, LightSamplerKind, Scratch};
 use crate::light::{Light, steps};
@@ -21,7 +21,7 @@ impl LightSamplerKind for Contribution {
         // Weighed once: the sum needs every weight before the first share.
         let mut weights = [0.0; MOST];
         let weights = &mut weights[..lights.len().min(MOST)];
-        weights.iter_mut().zip(lights).for_each(|(weight, light)| *weight = light.irradiance(at));
+        weights.iter_mut().zip(lights).for_each(|(weight, light)| *weight = light.weight(at));
         steps::share_out(weights.iter().copied(), scratch);
         Chooser { ends: scratch }
     }
