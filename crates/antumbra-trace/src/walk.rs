@@ -4,8 +4,8 @@ use fearless_simd::Simd;
 
 use crate::law::{self, Line};
 use crate::traverse::{
-    Ask, Best, Count, ExactTriangles, FastLine, Masks, NotCounted, ShapeTree, ShapeVisit, TriangleTree,
-    TriangleVisit, Visit, any_hit, any_hit_exact, nearest_hit, nearest_hit_exact,
+    AnyTriangle, Ask, Best, Count, ExactTriangles, FastLine, Masks, NearestTriangle, NotCounted, ShapeTree,
+    ShapeVisit, TriangleTree, VisitAny, VisitNearest, any_hit, any_hit_exact, nearest_hit, nearest_hit_exact,
 };
 use crate::world::{Object, World};
 use crate::{Hits, NO_PRIM, Segments};
@@ -80,7 +80,7 @@ fn any_triangle<S: Simd, M: Masks, const PLACED: bool>(
     ask: &Ask<'_, M>,
 ) -> bool {
     if of.limits.hold(line) {
-        let mut visit = TriangleVisit::<S, M, PLACED>::new(simd, of, ask, line, Best::none(line.tmax));
+        let mut visit = AnyTriangle::<S, M, PLACED>::new(simd, of, ask, line);
         return any_hit(simd, &of.tree.nodes, line, &mut visit);
     }
     any_triangle_exact(of, ask, &mut NotCounted)
@@ -106,7 +106,7 @@ fn nearest_triangle<S: Simd, M: Masks, const PLACED: bool>(
     best: &mut Best,
 ) {
     if of.limits.hold(line) {
-        let mut visit = TriangleVisit::<S, M, PLACED>::new(simd, of, ask, line, *best);
+        let mut visit = NearestTriangle::<S, M, PLACED>::new(simd, of, ask, line, *best);
         nearest_hit(simd, &of.tree.nodes, line, &mut visit);
         *best = visit.best();
     } else {
@@ -269,7 +269,7 @@ impl<M: Masks> PlaceVisit<'_, M> {
     }
 }
 
-impl<S: Simd, M: Masks> Visit<S> for PlaceVisit<'_, M> {
+impl<S: Simd, M: Masks> VisitAny<S> for PlaceVisit<'_, M> {
     #[inline(always)]
     fn any(&mut self, simd: S, leaf: usize) -> bool {
         for k in self.leaf(leaf) {
@@ -279,7 +279,9 @@ impl<S: Simd, M: Masks> Visit<S> for PlaceVisit<'_, M> {
         }
         false
     }
+}
 
+impl<S: Simd, M: Masks> VisitNearest<S> for PlaceVisit<'_, M> {
     #[inline(always)]
     fn nearest(&mut self, simd: S, leaf: usize) -> f32 {
         for k in self.leaf(leaf) {

@@ -1,19 +1,18 @@
-//! The race against Embree 4 on one core: the same rays, one after the other, in turn; median of the ratios.
+//! The race against Embree 4 on one core: the same rays, one after the other, in turn; median of the ratios of
+//! processor time.
 //!
 //! `ANTUMBRA_EMBREE=/path/to/libembree4.so cargo bench --profile demo -p antumbra-trace --bench embree [-- SCENE …]`
 //! (the library is part of the Python wheel `embreex`). `ANTUMBRA_DETAIL` scales the scenes, `ANTUMBRA_RESULT` names a
-//! JSON file for the numbers, `ANTUMBRA_SIMD` forces a level.
+//! JSON file for the numbers, `ANTUMBRA_SIMD` forces a level, `ANTUMBRA_CLASS` picks one class of rays.
 
 mod library;
 mod rays;
 mod scenes;
 
-use std::time::Instant;
-
 use antumbra_trace::{
     Bits, BuildOptions, Geometry, Hits, Instance, Pool, SimdLevel, Triangles, Visibility, World,
 };
-use library::{Embree, Scene as Peer};
+use library::{Embree, Scene as Peer, now};
 use rays::Class;
 
 const ROUNDS: usize = 7;
@@ -52,9 +51,9 @@ fn level() -> SimdLevel {
 fn build(mesh: &Triangles) -> (World, f64) {
     let geometries = vec![Geometry::Triangles(std::sync::Arc::new(mesh.clone()))];
     let instance = Instance { geometry: 0, transform: None, masked: false };
-    let start = Instant::now();
+    let start = now();
     let world = World::build(geometries, vec![instance], &BuildOptions::default(), Pool::serial());
-    let seconds = start.elapsed().as_secs_f64();
+    let seconds = now() - start;
     match world {
         Ok(world) => (world.with_level(level()), seconds),
         Err(error) => panic!("a scene of the race is unsound: {error}"),
@@ -92,7 +91,8 @@ fn race(embree: &Embree, scene: &scenes::Scene, lines: &mut Vec<String>) {
     ));
     let world = build(&scene.mesh).0;
     let peers = [embree.scene(&scene.mesh, false), embree.scene(&scene.mesh, true)];
-    for class in rays::classes(scene, &world) {
+    let only = std::env::var("ANTUMBRA_CLASS").unwrap_or_default();
+    for class in rays::classes(scene, &world).into_iter().filter(|c| only.is_empty() || c.name == only) {
         lines.push(measure(scene.name, &world, &peers, &class));
     }
 }
@@ -155,9 +155,9 @@ fn measure(scene: &str, world: &World, peers: &[Peer<'_>; 2], class: &Class) -> 
 }
 
 fn timed(work: impl FnOnce()) -> f64 {
-    let start = Instant::now();
+    let start = now();
     work();
-    start.elapsed().as_secs_f64()
+    now() - start
 }
 
 fn median(values: &[f64]) -> f64 {

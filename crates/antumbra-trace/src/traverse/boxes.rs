@@ -10,10 +10,14 @@ use crate::layout::{Child, MAX_DEPTH, Node, WIDTH};
 /// 1 + 2⁻²⁰: how much a far plane is moved away.
 const FAR_SLACK: f32 = 1.0 + 1.0 / 1_048_576.0;
 
-/// What is done at a leaf block.
-pub(crate) trait Visit<S: Simd> {
+/// What an any-hit query does at a leaf block.
+pub(crate) trait VisitAny<S: Simd> {
     /// Something in leaf block `leaf` blocks the line.
     fn any(&mut self, simd: S, leaf: usize) -> bool;
+}
+
+/// What a closest-hit query does at a leaf block.
+pub(crate) trait VisitNearest<S: Simd> {
     /// Looks for closer hits in leaf block `leaf`; the largest t that still matters.
     fn nearest(&mut self, simd: S, leaf: usize) -> f32;
 }
@@ -70,7 +74,12 @@ impl<T: Copy, const N: usize> Stack<T, N> {
 
 /// Anything blocks the line between 0 and its tmax. Children are visited in their stored order.
 #[inline(always)]
-pub(crate) fn any_hit<S: Simd>(simd: S, nodes: &[Node], line: &FastLine, visit: &mut impl Visit<S>) -> bool {
+pub(crate) fn any_hit<S: Simd>(
+    simd: S,
+    nodes: &[Node],
+    line: &FastLine,
+    visit: &mut impl VisitAny<S>,
+) -> bool {
     let ray = BoxRay::new(simd, line);
     let tmax = f32x8::splat(simd, line.tmax);
     // One entry a level: a node and its children still to visit.
@@ -100,7 +109,12 @@ pub(crate) fn any_hit<S: Simd>(simd: S, nodes: &[Node], line: &FastLine, visit: 
 
 /// Visits all that may hold the closest hit, nearer boxes first.
 #[inline(always)]
-pub(crate) fn nearest_hit<S: Simd>(simd: S, nodes: &[Node], line: &FastLine, visit: &mut impl Visit<S>) {
+pub(crate) fn nearest_hit<S: Simd>(
+    simd: S,
+    nodes: &[Node],
+    line: &FastLine,
+    visit: &mut impl VisitNearest<S>,
+) {
     let ray = BoxRay::new(simd, line);
     let mut tmax = line.tmax;
     let mut stack = Stack::<(f32, Child), { MAX_DEPTH * (WIDTH - 1) + 1 }>::new();
@@ -110,15 +124,10 @@ pub(crate) fn nearest_hit<S: Simd>(simd: S, nodes: &[Node], line: &FastLine, vis
             tmax = visit.nearest(simd, at.index());
         } else {
             let node = &nodes[at.index()];
-            let (mut met, enter) = meet(simd, node, &ray, f32x8::splat(simd, tmax));
+            let (met, enter) = meet(simd, node, &ray, f32x8::splat(simd, tmax));
             if met != 0 {
-                let enter = enter.to_array();
-                let first = stack.len;
-                while met != 0 {
-                    let lane = met.trailing_zeros() as usize % WIDTH;
-                    met &= met - 1;
-                    insert(&mut stack, first, (enter[lane], node.child[lane]));
-                }
+                at = nearest_child(node, met, &enter.to_array(), &mut stack);
+                continue;
             }
         }
         loop {
@@ -129,6 +138,32 @@ pub(crate) fn nearest_hit<S: Simd>(simd: S, nodes: &[Node], line: &FastLine, vis
             }
         }
     }
+}
+
+/// The child of `met` that is entered first; the others go on the stack, nearest on top.
+#[inline(always)]
+fn nearest_child<const N: usize>(
+    node: &Node,
+    met: u32,
+    enter: &[f32; WIDTH],
+    stack: &mut Stack<(f32, Child), N>,
+) -> Child {
+    let child = |met: u32| {
+        let lane = met.trailing_zeros() as usize % WIDTH;
+        (enter[lane], node.child[lane])
+    };
+    let mut first = child(met);
+    let mut left = met & (met - 1);
+    let bottom = stack.len;
+    while left != 0 {
+        let mut other = child(left);
+        left &= left - 1;
+        if other.0 < first.0 {
+            (first, other) = (other, first);
+        }
+        insert(stack, bottom, other);
+    }
+    first.1
 }
 
 /// Keeps slots[first ..] sorted, nearest on top.

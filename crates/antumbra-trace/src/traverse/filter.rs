@@ -4,7 +4,7 @@ use fearless_simd::{Simd, f32x8, prelude::*};
 
 use super::ray::FastLine;
 use super::vector::V3;
-use crate::layout::TriangleBlock;
+use crate::layout::{TriangleBlock, WIDTH};
 
 /// 2⁻²⁴, half a unit in the last place of 1.
 const U: f32 = 1.0 / 16_777_216.0;
@@ -61,64 +61,126 @@ pub(crate) fn filter<S: Simd, const PLACED: bool>(
     ray: &TriangleRay<S>,
     tmax: f32,
 ) -> Verdict {
-    let (va, vb, vc) = (
-        V3::load(simd, &block.corners[0]),
-        V3::load(simd, &block.corners[1]),
-        V3::load(simd, &block.corners[2]),
-    );
-    let (a, b, c) = (va.minus(ray.o), vb.minus(ray.o), vc.minus(ray.o));
-    let (e0, e1, e2) = (vb.minus(va), vc.minus(vb), va.minus(vc));
-    let w0 = ray.d.dot(e0.cross(a.plus(b)));
-    let w1 = ray.d.dot(e1.cross(b.plus(c)));
-    let w2 = ray.d.dot(e2.cross(c.plus(a)));
-    let edge = f32x8::load_array_ref(simd, &block.edge);
-    let mut size = a.abs().largest() + edge;
-    if PLACED {
-        size += ray.off;
-    }
-    let bound = ray.edge * edge * size;
-    let (low, high) = (w0.min(w1).min(w2), w0.max(w1).max(w2));
-    let outside = low.simd_lt(-bound) & high.simd_gt(bound);
-    let undecided = !(outside.to_bitmask() as u32) & 0xff;
-    if undecided == 0 {
+    let sides = Sides::of::<PLACED>(simd, block, ray);
+    if sides.undecided == 0 {
         return Verdict { hit: 0, open: 0 };
     }
-    let inside = (low.simd_gt(bound) | high.simd_lt(-bound)).to_bitmask() as u32;
-    let (hit, miss) = along::<S, PLACED>(simd, (a, e0, e1), ray, tmax);
-    let hit = undecided & inside & hit;
-    Verdict { hit, open: undecided & !hit & !miss }
+    Along::of::<PLACED>(simd, &sides, ray).verdict(simd, &sides, tmax)
 }
 
-/// The distance: lanes certainly in 0 < t < tmax, and lanes certainly not.
+/// As [`filter`], and the interval in which t of each certain hit lies.
 #[inline(always)]
-fn along<S: Simd, const PLACED: bool>(
+pub(crate) fn filter_with_t<S: Simd, const PLACED: bool>(
     simd: S,
-    (a, e0, e1): (V3<S>, V3<S>, V3<S>),
+    block: &TriangleBlock,
     ray: &TriangleRay<S>,
     tmax: f32,
-) -> (u32, u32) {
-    let tiny = f32x8::splat(simd, TINY);
-    let n = e0.cross(e1);
-    let (f0, f1) = (e0.abs(), e1.abs());
-    let p = V3 {
-        x: f0.y.mul_add(f1.z, f0.z.mul_add(f1.y, tiny)),
-        y: f0.z.mul_add(f1.x, f0.x.mul_add(f1.z, tiny)),
-        z: f0.x.mul_add(f1.y, f0.y.mul_add(f1.x, tiny)),
-    };
-    let (v, det) = (a.dot(n), ray.d.dot(n));
-    let mut reach = a.abs();
-    if PLACED {
-        reach = reach.plus(V3 { x: ray.off, y: ray.off, z: ray.off });
+) -> (Verdict, Interval) {
+    let sides = Sides::of::<PLACED>(simd, block, ray);
+    let none = (Verdict { hit: 0, open: 0 }, Interval { from: [0.0; WIDTH], to: [0.0; WIDTH] });
+    if sides.undecided == 0 {
+        return none;
     }
-    let (bv, bd) = (reach.dot(p).mul_add(12.0 * U, tiny), ray.d.abs().dot(p).mul_add(12.0 * U, tiny));
-    let size = det.abs();
-    let sv = det.simd_lt(0.0).select(-v, v);
-    let sure = size.simd_gt(bd);
-    let t = f32x8::splat(simd, tmax);
-    // tmax = ∞ makes the bound ∞ too: such a line has no far end to pass.
-    let (far, bf) = (t.mul_sub(size, sv), t.mul_add(bd, bv));
-    let before_end = far.simd_gt(bf) | t.simd_eq(f32::INFINITY);
-    let hit = sure & sv.simd_gt(bv) & before_end;
-    let miss = sure & (sv.simd_lt(-bv) | far.simd_lt(-bf));
-    (hit.to_bitmask() as u32, miss.to_bitmask() as u32)
+    let along = Along::of::<PLACED>(simd, &sides, ray);
+    let verdict = along.verdict(simd, &sides, tmax);
+    if verdict.lanes() == 0 {
+        return none;
+    }
+    (verdict, along.interval())
 }
+
+/// Where t of eight triangles lies; means something for certain hits only.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Interval {
+    pub from: [f32; WIDTH],
+    pub to: [f32; WIDTH],
+}
+
+/// On which sides of the edges the line passes, and what the distance is computed from.
+struct Sides<S: Simd> {
+    /// Lanes that the line does not certainly pass by.
+    undecided: u32,
+    /// Lanes that it certainly goes through.
+    inside: u32,
+    a: V3<S>,
+    e0: V3<S>,
+    e1: V3<S>,
+}
+
+impl<S: Simd> Sides<S> {
+    #[inline(always)]
+    fn of<const PLACED: bool>(simd: S, block: &TriangleBlock, ray: &TriangleRay<S>) -> Sides<S> {
+        let [va, vb, vc] = &block.corners;
+        let (va, vb, vc) = (V3::load(simd, va), V3::load(simd, vb), V3::load(simd, vc));
+        let (a, b, c) = (va.minus(ray.o), vb.minus(ray.o), vc.minus(ray.o));
+        let (e0, e1, e2) = (vb.minus(va), vc.minus(vb), va.minus(vc));
+        let w0 = ray.d.dot(e0.cross(a.plus(b)));
+        let w1 = ray.d.dot(e1.cross(b.plus(c)));
+        let w2 = ray.d.dot(e2.cross(c.plus(a)));
+        let edge = f32x8::load_array_ref(simd, &block.edge);
+        let mut size = a.abs().largest() + edge;
+        if PLACED {
+            size += ray.off;
+        }
+        let bound = ray.edge * edge * size;
+        let (low, high) = (w0.min(w1).min(w2), w0.max(w1).max(w2));
+        let outside = low.simd_lt(-bound) & high.simd_gt(bound);
+        let inside = low.simd_gt(bound) | high.simd_lt(-bound);
+        let undecided = !(outside.to_bitmask() as u32) & 0xff;
+        Sides { undecided, inside: inside.to_bitmask() as u32, a, e0, e1 }
+    }
+}
+
+/// The distance as sv/size, with the bounds of both.
+struct Along<S: Simd> {
+    sv: f32x8<S>,
+    bv: f32x8<S>,
+    size: f32x8<S>,
+    bd: f32x8<S>,
+}
+
+impl<S: Simd> Along<S> {
+    #[inline(always)]
+    fn of<const PLACED: bool>(simd: S, sides: &Sides<S>, ray: &TriangleRay<S>) -> Along<S> {
+        let (a, e0, e1) = (sides.a, sides.e0, sides.e1);
+        let tiny = f32x8::splat(simd, TINY);
+        let n = e0.cross(e1);
+        let (f0, f1) = (e0.abs(), e1.abs());
+        let p = V3 {
+            x: f0.y.mul_add(f1.z, f0.z.mul_add(f1.y, tiny)),
+            y: f0.z.mul_add(f1.x, f0.x.mul_add(f1.z, tiny)),
+            z: f0.x.mul_add(f1.y, f0.y.mul_add(f1.x, tiny)),
+        };
+        let (v, det) = (a.dot(n), ray.d.dot(n));
+        let mut reach = a.abs();
+        if PLACED {
+            reach = reach.plus(V3 { x: ray.off, y: ray.off, z: ray.off });
+        }
+        let (bv, bd) = (reach.dot(p).mul_add(12.0 * U, tiny), ray.d.abs().dot(p).mul_add(12.0 * U, tiny));
+        Along { sv: det.simd_lt(0.0).select(-v, v), bv, size: det.abs(), bd }
+    }
+
+    #[inline(always)]
+    fn verdict(&self, simd: S, sides: &Sides<S>, tmax: f32) -> Verdict {
+        let sure = self.size.simd_gt(self.bd);
+        let t = f32x8::splat(simd, tmax);
+        // tmax = ∞ makes the bound ∞ too: such a line has no far end to pass.
+        let (far, bf) = (t.mul_sub(self.size, self.sv), t.mul_add(self.bd, self.bv));
+        let before_end = far.simd_gt(bf) | t.simd_eq(f32::INFINITY);
+        let hit = (sure & self.sv.simd_gt(self.bv) & before_end).to_bitmask() as u32;
+        let miss = (sure & (self.sv.simd_lt(-self.bv) | far.simd_lt(-bf))).to_bitmask() as u32;
+        let hit = hit & sides.undecided & sides.inside;
+        Verdict { hit, open: sides.undecided & !hit & !miss }
+    }
+
+    /// The quotients of the bounds, their own four roundings covered by 2⁻²⁰.
+    #[inline(always)]
+    fn interval(&self) -> Interval {
+        let from = (self.sv - self.bv) / (self.size + self.bd) * (1.0 - SLACK);
+        let to = (self.sv + self.bv) / (self.size - self.bd) * (1.0 + SLACK);
+        Interval { from: from.to_array(), to: to.to_array() }
+    }
+}
+
+/// 2⁻²⁰
+const SLACK: f32 = 1.0 / 1_048_576.0;

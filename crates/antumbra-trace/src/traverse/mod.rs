@@ -13,8 +13,8 @@ mod triangles;
 mod vector;
 
 pub(crate) use ask::{Ask, Asking, Best, Masks, Opaque};
-pub(crate) use boxes::{Visit, any_hit, nearest_hit};
+pub(crate) use boxes::{VisitAny, VisitNearest, any_hit, nearest_hit};
 pub(crate) use exact::{Count, ExactVisit, NotCounted, any_hit_exact, nearest_hit_exact};
 pub(crate) use ray::{FastLine, Limits};
 pub(crate) use shapes::{Numbered, ShapeTree, ShapeVisit};
-pub(crate) use triangles::{ExactTriangles, TriangleTree, TriangleVisit};
+pub(crate) use triangles::{AnyTriangle, ExactTriangles, NearestTriangle, TriangleTree};

@@ -3,7 +3,7 @@
 use fearless_simd::Simd;
 
 use super::ask::{Ask, Best, Masks};
-use super::boxes::Visit;
+use super::boxes::{VisitAny, VisitNearest};
 use super::exact::{Count, ExactVisit, NotCounted};
 use super::ray::Limits;
 use crate::law::{self, Line};
@@ -68,12 +68,14 @@ impl<M: Masks> ExactVisit for ShapeVisit<'_, M> {
     }
 }
 
-impl<S: Simd, M: Masks> Visit<S> for ShapeVisit<'_, M> {
+impl<S: Simd, M: Masks> VisitAny<S> for ShapeVisit<'_, M> {
     #[inline(always)]
     fn any(&mut self, _: S, leaf: usize) -> bool {
         ExactVisit::any(self, leaf, &mut NotCounted)
     }
+}
 
+impl<S: Simd, M: Masks> VisitNearest<S> for ShapeVisit<'_, M> {
     #[inline(always)]
     fn nearest(&mut self, _: S, leaf: usize) -> f32 {
         let mut best = self.best;

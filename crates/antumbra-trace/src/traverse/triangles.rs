@@ -3,9 +3,9 @@
 use fearless_simd::Simd;
 
 use super::ask::{Ask, Best, Masks};
-use super::boxes::Visit;
+use super::boxes::{VisitAny, VisitNearest};
 use super::exact::{Count, ExactVisit};
-use super::filter::{TriangleRay, filter};
+use super::filter::{Interval, TriangleRay, Verdict, filter, filter_with_t};
 use super::ray::{FastLine, Limits};
 use crate::NO_PRIM;
 use crate::law::{self, Line};
@@ -22,39 +22,119 @@ pub(crate) struct TriangleTree {
     pub limits: Limits,
 }
 
-/// A line on its way through a [`TriangleTree`]; `PLACED`: in the space of an instance.
-pub(crate) struct TriangleVisit<'a, S: Simd, M, const PLACED: bool> {
+/// A line on its way through a [`TriangleTree`], looking for anything; `PLACED`: in the space of an instance.
+pub(crate) struct AnyTriangle<'a, S: Simd, M, const PLACED: bool> {
+    of: &'a TriangleTree,
+    ask: &'a Ask<'a, M>,
+    ray: TriangleRay<S>,
+    tmax: f32,
+}
+
+impl<'a, S: Simd, M: Masks, const PLACED: bool> AnyTriangle<'a, S, M, PLACED> {
+    #[inline(always)]
+    pub fn new(simd: S, of: &'a TriangleTree, ask: &'a Ask<'a, M>, line: &FastLine) -> Self {
+        AnyTriangle { of, ask, ray: TriangleRay::new(simd, line, PLACED), tmax: line.tmax }
+    }
+}
+
+impl<S: Simd, M: Masks, const PLACED: bool> VisitAny<S> for AnyTriangle<'_, S, M, PLACED> {
+    #[inline(always)]
+    fn any(&mut self, simd: S, leaf: usize) -> bool {
+        let verdict = filter::<S, PLACED>(simd, &self.of.blocks[leaf], &self.ray, self.tmax);
+        verdict.lanes() != 0 && blocks(self.of, self.ask, leaf, verdict.lanes(), verdict.hit)
+    }
+}
+
+/// A triangle that may be the closest hit.
+#[derive(Clone, Copy, Debug, Default)]
+struct Candidate {
+    leaf: u32,
+    lane: u32,
+    /// Its t is not below this.
+    from: f32,
+}
+
+/// Candidates that are kept before the law is asked.
+const ROOM: usize = 8;
+
+/// A line on its way through a [`TriangleTree`], looking for the closest hit.
+///
+/// The law is asked last: certain hits only lower the limit to where their t surely ends, so that few candidates
+/// remain for it at the end. With masks it is asked at once, because a hit may not count.
+pub(crate) struct NearestTriangle<'a, S: Simd, M, const PLACED: bool> {
     of: &'a TriangleTree,
     ask: &'a Ask<'a, M>,
     ray: TriangleRay<S>,
     best: Best,
+    candidates: [Candidate; ROOM],
+    kept: usize,
 }
 
-impl<'a, S: Simd, M: Masks, const PLACED: bool> TriangleVisit<'a, S, M, PLACED> {
+impl<'a, S: Simd, M: Masks, const PLACED: bool> NearestTriangle<'a, S, M, PLACED> {
     #[inline(always)]
     pub fn new(simd: S, of: &'a TriangleTree, ask: &'a Ask<'a, M>, line: &FastLine, best: Best) -> Self {
-        TriangleVisit { of, ask, ray: TriangleRay::new(simd, line, PLACED), best }
+        let ray = TriangleRay::new(simd, line, PLACED);
+        NearestTriangle { of, ask, ray, best, candidates: [Candidate::default(); ROOM], kept: 0 }
     }
 
     /// The closest hit after the walk.
     #[inline(always)]
-    pub fn best(self) -> Best {
+    pub fn best(mut self) -> Best {
+        if self.kept > 0 {
+            self.decide();
+        }
         self.best
+    }
+
+    /// Lowers the limit by certain hits and keeps what may be closest.
+    #[inline(never)]
+    fn keep(&mut self, leaf: usize, verdict: Verdict, t: &Interval) {
+        let mut lanes = verdict.lanes();
+        while lanes != 0 {
+            let lane = lanes.trailing_zeros() as usize;
+            lanes &= lanes - 1;
+            let id = self.of.tree.leaves[leaf][lane];
+            let certain = verdict.hit >> lane & 1 == 1;
+            let from = if certain { t.from[lane] } else { 0.0 };
+            if id == NO_PRIM || id == self.ask.first || id == self.ask.last || from > self.best.limit {
+                continue;
+            }
+            if certain {
+                self.best.limit = self.best.limit.min(t.to[lane]);
+            }
+            if self.kept == ROOM {
+                self.decide();
+            }
+            self.candidates[self.kept] = Candidate { leaf: leaf as u32, lane: lane as u32, from };
+            self.kept += 1;
+        }
+    }
+
+    /// Asks the law about the candidates that are still within the limit.
+    #[inline(never)]
+    fn decide(&mut self) {
+        let line = self.ask.line();
+        for k in 0..self.kept {
+            let Candidate { leaf, lane, from } = self.candidates[k];
+            if from <= self.best.limit {
+                offer(self.of, self.ask, &line, leaf as usize, 1 << lane, &mut self.best);
+            }
+        }
+        self.kept = 0;
     }
 }
 
-impl<S: Simd, M: Masks, const PLACED: bool> Visit<S> for TriangleVisit<'_, S, M, PLACED> {
-    #[inline(always)]
-    fn any(&mut self, simd: S, leaf: usize) -> bool {
-        let verdict = filter::<S, PLACED>(simd, &self.of.blocks[leaf], &self.ray, self.best.limit);
-        verdict.lanes() != 0 && blocks(self.of, self.ask, leaf, verdict.lanes(), verdict.hit)
-    }
-
+impl<S: Simd, M: Masks, const PLACED: bool> VisitNearest<S> for NearestTriangle<'_, S, M, PLACED> {
     #[inline(always)]
     fn nearest(&mut self, simd: S, leaf: usize) -> f32 {
-        let verdict = filter::<S, PLACED>(simd, &self.of.blocks[leaf], &self.ray, self.best.limit);
+        let (verdict, t) =
+            filter_with_t::<S, PLACED>(simd, &self.of.blocks[leaf], &self.ray, self.best.limit);
         if verdict.lanes() != 0 {
-            offer(self.of, self.ask, leaf, verdict.lanes(), &mut self.best);
+            if M::ASK {
+                offer(self.of, self.ask, &self.ask.line(), leaf, verdict.lanes(), &mut self.best);
+            } else {
+                self.keep(leaf, verdict, &t);
+            }
         }
         self.best.limit
     }
@@ -85,9 +165,14 @@ fn blocks<M: Masks>(of: &TriangleTree, ask: &Ask<'_, M>, leaf: usize, mut lanes:
 }
 
 /// Offers the hits among `lanes` to `best`.
-#[inline(never)]
-fn offer<M: Masks>(of: &TriangleTree, ask: &Ask<'_, M>, leaf: usize, mut lanes: u32, best: &mut Best) {
-    let line = ask.line();
+fn offer<M: Masks>(
+    of: &TriangleTree,
+    ask: &Ask<'_, M>,
+    line: &Line,
+    leaf: usize,
+    mut lanes: u32,
+    best: &mut Best,
+) {
     while lanes != 0 {
         let lane = lanes.trailing_zeros() as usize;
         lanes &= lanes - 1;
@@ -96,13 +181,13 @@ fn offer<M: Masks>(of: &TriangleTree, ask: &Ask<'_, M>, leaf: usize, mut lanes: 
             continue;
         }
         let corners = of.blocks[leaf].triangle(lane);
-        let Some(t) = law::triangle(&line, corners) else { continue };
+        let Some(t) = law::triangle(line, corners) else { continue };
         let prim = ask.world_prim(id);
         if !best.improves(t, prim) {
             continue;
         }
         let masked = M::ASK && of.is_masked(ask, leaf, lane);
-        if !(masked && ask.goes_through(id, law::barycentrics(&line, corners))) {
+        if !(masked && ask.goes_through(id, law::barycentrics(line, corners))) {
             best.offer(t, prim, Some(corners));
         }
     }
@@ -134,6 +219,6 @@ impl<M: Masks> ExactVisit for ExactTriangles<'_, M> {
 
     fn nearest(&mut self, leaf: usize, best: &mut Best, count: &mut impl Count) {
         count.primitives(self.of.count(leaf));
-        offer(self.of, self.ask, leaf, 0xff, best);
+        offer(self.of, self.ask, &self.ask.line(), leaf, 0xff, best);
     }
 }
