@@ -5,7 +5,6 @@ use crate::traverse::{
     Ask, Best, Count, ExactTriangles, ExactVisit, Opaque, ShapeTree, ShapeVisit, TriangleTree, any_hit_exact,
     nearest_hit_exact,
 };
-use crate::walk::write;
 use crate::world::{Object, World};
 use crate::{Bits, Hits, Segments};
 
@@ -48,9 +47,8 @@ impl World {
         work.clear();
         for i in 0..rays.len() {
             let mut count = Work::default();
-            let ask = Ask::world(&rays, i, &Opaque);
-            let best = self.closest(&ask, &mut count);
-            write(self, &ask, &best, i, out);
+            let best = self.closest(&Ask::world(&rays, i, &Opaque), &mut count);
+            best.write(i, out);
             work.push(count);
         }
     }
@@ -60,11 +58,11 @@ impl World {
         if !line.is_valid() {
             return false;
         }
-        any_triangle(&self.triangles, ask, &line, count)
-            || any_shape(&self.shapes, ask, &line, count)
+        any_triangle(&self.triangles, ask, line, count)
+            || any_shape(&self.shapes, ask, line, count)
             || self.places.places.iter().any(|place| {
                 let line = line.to_object(&place.object_from_world);
-                let ask = ask.placed(&line, place);
+                let ask = ask.placed(line, place);
                 count.boxes(1);
                 line.is_valid()
                     && match &self.objects[place.geometry] {
@@ -81,20 +79,16 @@ impl World {
         if !line.is_valid() {
             return best;
         }
-        nearest_triangle(&self.triangles, ask, &line, &mut best, count);
-        nearest_shape(&self.shapes, ask, &line, &mut best, count);
-        for (k, place) in (0u32..).zip(&self.places.places) {
+        nearest_triangle(&self.triangles, ask, line, &mut best, count);
+        nearest_shape(&self.shapes, ask, line, &mut best, count);
+        for place in &self.places.places {
             let line = line.to_object(&place.object_from_world);
-            let ask = ask.placed(&line, place);
-            let before = best.prim;
+            let ask = ask.placed(line, place);
             count.boxes(1);
             match &self.objects[place.geometry] {
                 Some(Object::Triangles(of)) => nearest_triangle(of, &ask, &line, &mut best, count),
                 Some(Object::Shapes(of)) => nearest_shape(of, &ask, &line, &mut best, count),
                 None => {}
-            }
-            if best.prim != before {
-                best.place = Some(k);
             }
         }
         best

@@ -2,7 +2,7 @@
 
 use fearless_simd::Simd;
 
-use crate::law::{self, Line};
+use crate::law::Line;
 use crate::traverse::{
     AnyTriangle, Ask, Best, Count, ExactTriangles, FastLine, Masks, NearestTriangle, NotCounted, ShapeTree,
     ShapeVisit, TriangleTree, VisitAny, VisitNearest, any_hit, any_hit_exact, nearest_hit, nearest_hit_exact,
@@ -55,21 +55,7 @@ pub(crate) fn nearest<S: Simd, M: Masks>(
             || nearest_other(simd, world, &line, &ask, &mut best),
         );
     }
-    write(world, &ask, &best, i, out);
-}
-
-/// Writes a hit; where on its triangle is computed for the closest one only.
-pub(crate) fn write<M: Masks>(world: &World, ask: &Ask<'_, M>, best: &Best, i: usize, out: &mut Hits) {
-    if best.prim == NO_PRIM {
-        return;
-    }
-    (out.t[i], out.prim[i]) = (best.t, best.prim);
-    if let Some(corners) = best.corners {
-        let line = ask.line();
-        let line =
-            best.place.map_or(line, |k| line.to_object(&world.places.places[k as usize].object_from_world));
-        out.uv[i] = law::barycentrics(&line, corners);
-    }
+    best.write(i, out);
 }
 
 #[inline(always)]
@@ -94,7 +80,7 @@ pub(crate) fn any_triangle_exact<M: Masks>(
     count: &mut impl Count,
 ) -> bool {
     let line = ask.line();
-    line.is_valid() && any_hit_exact(&of.tree.nodes, &line, &mut ExactTriangles { of, ask }, count)
+    line.is_valid() && any_hit_exact(&of.tree.nodes, line, &mut ExactTriangles { of, ask }, count)
 }
 
 #[inline(always)]
@@ -124,7 +110,7 @@ pub(crate) fn nearest_triangle_exact<M: Masks>(
 ) {
     let line = ask.line();
     if line.is_valid() {
-        nearest_hit_exact(&of.tree.nodes, &line, best, &mut ExactTriangles { of, ask }, count);
+        nearest_hit_exact(&of.tree.nodes, line, best, &mut ExactTriangles { of, ask }, count);
     }
 }
 
@@ -135,11 +121,11 @@ fn any_other<S: Simd, M: Masks>(simd: S, world: &World, fast: &FastLine, ask: &A
     if !line.is_valid() {
         return false;
     }
-    if !world.shapes.tree.is_empty() && any_shape(simd, &world.shapes, Some(fast), &line, ask) {
+    if !world.shapes.tree.is_empty() && any_shape(simd, &world.shapes, Some(fast), line, ask) {
         return true;
     }
     let places = &world.places;
-    let mut visit = PlaceVisit { world, ask, line: &line, best: Best::none(fast.tmax) };
+    let mut visit = PlaceVisit { world, ask, line, best: Best::none(fast.tmax) };
     if !places.limits.hold(fast) {
         return (0..places.places.len()).any(|k| visit.any_in(simd, k));
     }
@@ -161,10 +147,10 @@ fn nearest_other<S: Simd, M: Masks>(
         return;
     }
     if !world.shapes.tree.is_empty() {
-        nearest_shape(simd, &world.shapes, Some(fast), &line, ask, best);
+        nearest_shape(simd, &world.shapes, Some(fast), line, ask, best);
     }
     let places = &world.places;
-    let mut visit = PlaceVisit { world, ask, line: &line, best: *best };
+    let mut visit = PlaceVisit { world, ask, line, best: *best };
     if places.limits.hold(fast) {
         if !places.tree.is_empty() {
             nearest_hit(simd, &places.tree.nodes, fast, &mut visit);
@@ -227,7 +213,7 @@ impl<M: Masks> PlaceVisit<'_, M> {
         if !line.is_valid() {
             return false;
         }
-        let ask = self.ask.placed(&line, place);
+        let ask = self.ask.placed(line, place);
         let fast = FastLine::of_line(&line, self.best.limit);
         match &self.world.objects[place.geometry] {
             Some(Object::Triangles(of)) => match fast {
@@ -246,9 +232,8 @@ impl<M: Masks> PlaceVisit<'_, M> {
         if !line.is_valid() {
             return;
         }
-        let ask = self.ask.placed(&line, place);
+        let ask = self.ask.placed(line, place);
         let fast = FastLine::of_line(&line, self.best.limit);
-        let before = self.best.prim;
         let best = &mut self.best;
         match &self.world.objects[place.geometry] {
             Some(Object::Triangles(of)) => match fast {
@@ -257,9 +242,6 @@ impl<M: Masks> PlaceVisit<'_, M> {
             },
             Some(Object::Shapes(of)) => nearest_shape(simd, of, fast.as_ref(), &line, &ask, best),
             None => {}
-        }
-        if self.best.prim != before {
-            self.best.place = Some(k as u32);
         }
     }
 

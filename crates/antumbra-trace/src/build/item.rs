@@ -44,7 +44,12 @@ impl Item {
     /// Centre of its box; the fourth lane means nothing.
     #[inline(always)]
     pub fn centre(&self) -> [f32; 4] {
-        [0, 1, 2, 3].map(|a| 0.5 * self.lo[a] + 0.5 * self.hi[a])
+        let (l, h) = (&self.lo, &self.hi);
+        let mut c = [0.0; 4];
+        for a in 0..4 {
+            c[a] = 0.5 * l[a] + 0.5 * h[a];
+        }
+        c
     }
 }
 

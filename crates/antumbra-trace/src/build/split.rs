@@ -90,10 +90,12 @@ impl Binning {
     #[inline(always)]
     fn bins(&self, centre: &[f32; 4]) -> [usize; 3] {
         let last = self.count as i32 - 1;
-        [0, 1, 2].map(|a| {
+        let mut bins = [0; 3];
+        for a in 0..3 {
             let x = (centre[a] - self.from[a]) * self.per_unit[a];
-            (x as i32).clamp(0, last) as usize
-        })
+            bins[a] = (x as i32).clamp(0, last) as usize;
+        }
+        bins
     }
 
     #[inline(always)]
@@ -201,51 +203,56 @@ pub(crate) fn halve(items: &mut [Item], centres: &Bounds) -> (usize, Side, Side)
     (middle, side(left), side(right))
 }
 
-/// Tries every cut between two centres on each axis; for few primitives.
+/// Tries every cut between two centres on each axis; for 2 … [`SWEEP`] primitives.
 pub(crate) fn sweep(items: &mut [Item], measure: &Measure) -> (usize, Side, Side) {
     let n = items.len();
     let mut best = (f32::INFINITY, n / 2);
-    let mut order = [items[0]; SWEEP];
-    let mut sorted = order;
-    order[..n].copy_from_slice(items);
-    for axis in 0..3 {
-        sort_by_centre(&mut sorted[..n], items, axis);
+    let mut order = [0; SWEEP];
+    for axis in 0..if n > 2 { 3 } else { 0 } {
+        let sorted = sorted_by_centre(items, axis);
         let mut right = [0.0; SWEEP];
         let mut grown = Grow::EMPTY;
         for i in (1..n).rev() {
-            grown.add(&sorted[i]);
+            grown.add(&items[sorted[i]]);
             right[i] = grown.half_area(measure) * (n - i) as f32;
         }
         grown = Grow::EMPTY;
-        let mut improved = false;
+        let before = best.0;
         for i in 1..n {
-            grown.add(&sorted[i - 1]);
+            grown.add(&items[sorted[i - 1]]);
             let cost = grown.half_area(measure) * i as f32 + right[i];
             if cost < best.0 {
                 best = (cost, i);
-                improved = true;
             }
         }
-        if improved {
+        if best.0 < before {
             order = sorted;
         }
     }
-    items.copy_from_slice(&order[..n]);
+    if best.0 < f32::INFINITY {
+        let mut copy = [items[0]; SWEEP];
+        copy[..n].copy_from_slice(items);
+        for i in 0..n {
+            items[i] = copy[order[i]];
+        }
+    }
     let (left, right) = items.split_at(best.1);
     (best.1, side(left), side(right))
 }
 
-/// Insertion sort: stable, hence the same everywhere.
-fn sort_by_centre(out: &mut [Item], items: &[Item], axis: usize) {
-    for (filled, item) in items.iter().enumerate() {
-        let key = item.centre()[axis];
+/// The order of the centres on an axis, by insertion: stable, hence the same everywhere.
+fn sorted_by_centre(items: &[Item], axis: usize) -> [usize; SWEEP] {
+    let (mut keys, mut order) = ([0.0; SWEEP], [0; SWEEP]);
+    for (filled, item) in items.iter().enumerate().take(SWEEP) {
+        let key = 0.5 * item.lo[axis] + 0.5 * item.hi[axis];
         let mut at = filled;
-        while at > 0 && out[at - 1].centre()[axis] > key {
-            out[at] = out[at - 1];
+        while at > 0 && keys[at - 1] > key {
+            (keys[at], order[at]) = (keys[at - 1], order[at - 1]);
             at -= 1;
         }
-        out[at] = *item;
+        (keys[at], order[at]) = (key, filled);
     }
+    order
 }
 
 fn side(items: &[Item]) -> Side {

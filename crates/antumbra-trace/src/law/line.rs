@@ -34,13 +34,13 @@ impl Line {
     /// The open segment from p to q; its direction q − p is exact.
     #[inline]
     pub fn segment(p: [f32; 3], q: [f32; 3]) -> Line {
-        Line::between(p.map(f64::from), q.map(f64::from))
+        Line::between(widened(p), widened(q))
     }
 
     /// The ray o + t·d, 0 < t < `tmax`.
     #[inline]
     pub fn ray(o: [f32; 3], d: [f32; 3], tmax: f32) -> Line {
-        Line::along(o.map(f64::from), d.map(f64::from), f64::from(tmax))
+        Line::along(widened(o), widened(d), f64::from(tmax))
     }
 
     /// Entry i of a batch.
@@ -85,7 +85,8 @@ impl Line {
             return Line::NOWHERE;
         }
         let d = [two_diff(q[0], p[0]), two_diff(q[1], p[1]), two_diff(q[2], p[2])];
-        Line { o: p, d: d.map(|x| x.0), d_lo: d.map(|x| x.1), tmax: 1.0, end: Some(q) }
+        let [(x, x_lo), (y, y_lo), (z, z_lo)] = d;
+        Line { o: p, d: [x, y, z], d_lo: [x_lo, y_lo, z_lo], tmax: 1.0, end: Some(q) }
     }
 
     #[inline]
@@ -97,10 +98,15 @@ impl Line {
     }
 }
 
+#[inline(always)]
+fn widened(v: [f32; 3]) -> [f64; 3] {
+    [f64::from(v[0]), f64::from(v[1]), f64::from(v[2])]
+}
+
 /// All finite and at most 2²⁰⁰ (false for NaN).
 #[inline]
 fn in_range(x: [f64; 3]) -> bool {
-    x.iter().all(|c| c.abs() <= LARGEST)
+    (x[0].abs() <= LARGEST) & (x[1].abs() <= LARGEST) & (x[2].abs() <= LARGEST)
 }
 
 #[inline]

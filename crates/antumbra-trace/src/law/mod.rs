@@ -30,10 +30,17 @@ pub(crate) use stage1::volume;
 /// Weights are taken from stage 1 while its bounds are below this part of their sum: 2⁻³⁰.
 const WEIGHT_BOUND: f64 = 1.0 / 1_073_741_824.0;
 
+/// Corners in f64 (written out: a closure here is not always inlined, and this is the hottest line of the referee).
+#[inline(always)]
+fn widened([a, b, c]: [[f32; 3]; 3]) -> [[f64; 3]; 3] {
+    let wide = |v: [f32; 3]| [f64::from(v[0]), f64::from(v[1]), f64::from(v[2])];
+    [wide(a), wide(b), wide(c)]
+}
+
 /// The t (relative error ≤ 2⁻²⁹, at most `tmax`) at which a line hits a triangle, iff the law says that it does.
 #[inline]
 pub fn triangle(line: &Line, corners: [[f32; 3]; 3]) -> Option<f64> {
-    let corners = corners.map(|c| c.map(f64::from));
+    let corners = widened(corners);
     match stage1(line, corners) {
         Verdict::Miss => None,
         Verdict::Hit(t) => Some(t),
@@ -44,7 +51,7 @@ pub fn triangle(line: &Line, corners: [[f32; 3]; 3]) -> Option<f64> {
 /// Whether a line hits a triangle: [`triangle`] without its t.
 #[inline]
 pub fn blocks(line: &Line, corners: [[f32; 3]; 3]) -> bool {
-    let corners = corners.map(|c| c.map(f64::from));
+    let corners = widened(corners);
     match stage1(line, corners) {
         Verdict::Miss => false,
         Verdict::Hit(_) | Verdict::HitSomewhere => true,
@@ -55,8 +62,9 @@ pub fn blocks(line: &Line, corners: [[f32; 3]; 3]) -> bool {
 /// Where a line that hits a triangle does so: the weights of corners b and c, both ≥ 0, their sum ≤ 1.
 ///
 /// Error ≤ 2⁻²⁴ or so: rounded from f64 weights of relative error 2⁻²⁸.
+#[inline]
 pub fn barycentrics(line: &Line, corners: [[f32; 3]; 3]) -> [f32; 2] {
-    let corners = corners.map(|c| c.map(f64::from));
+    let corners = widened(corners);
     let stage1::Edges { w, b } = stage1::edges(line, corners);
     let sum = (w[0] + w[1] + w[2]).abs();
     let good = b.iter().all(|&b| b <= WEIGHT_BOUND * sum) && sum > 0.0;

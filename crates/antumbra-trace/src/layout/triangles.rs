@@ -36,7 +36,13 @@ impl TriangleBlock {
     #[inline]
     pub fn triangle(&self, lane: usize) -> [[f32; 3]; 3] {
         let c = &self.corners;
-        [0, 1, 2].map(|corner| [c[corner][0][lane], c[corner][1][lane], c[corner][2][lane]])
+        let mut out = [[0.0; 3]; 3];
+        for corner in 0..3 {
+            for axis in 0..3 {
+                out[corner][axis] = c[corner][axis][lane];
+            }
+        }
+        out
     }
 }
 

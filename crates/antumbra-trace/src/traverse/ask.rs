@@ -1,8 +1,10 @@
 //! One question: an entry of a batch in the space of one set of primitives, and its best answer so far.
 
+use std::cell::OnceCell;
+
 use crate::law::Line;
 use crate::place::Place;
-use crate::{NO_PRIM, Passes, PrimId, Segments};
+use crate::{Hits, NO_PRIM, Passes, PrimId, Segments};
 
 /// What happens at masked primitives.
 pub(crate) trait Masks: Sync {
@@ -39,8 +41,8 @@ pub(crate) struct Ask<'a, M> {
     segments: &'a Segments<'a>,
     i: usize,
     masks: &'a M,
-    /// The line in an instance's space; `None` = world space, where the law's line is made only when needed.
-    object: Option<&'a Line>,
+    /// The line as the law takes it: in world space made when it is first needed.
+    line: OnceCell<Line>,
     /// World number of the set's primitive 0.
     base: PrimId,
     /// All primitives here are masked (instances; in world space each says so itself).
@@ -56,19 +58,19 @@ impl<'a, M: Masks> Ask<'a, M> {
     #[inline(always)]
     pub fn world(segments: &'a Segments<'a>, i: usize, masks: &'a M) -> Ask<'a, M> {
         let (first, last) = (segments.first[i], segments.last[i]);
-        Ask { segments, i, masks, object: None, base: 0, masked: false, first, last }
+        Ask { segments, i, masks, line: OnceCell::new(), base: 0, masked: false, first, last }
     }
 
     /// The same entry in the space of an instance.
     #[inline(always)]
-    pub fn placed<'b>(&'b self, line: &'b Line, place: &Place) -> Ask<'b, M> {
+    pub fn placed(&self, line: Line, place: &Place) -> Ask<'a, M> {
         let (base, masked) = (place.base, place.masked);
         let local = |prim: PrimId| if prim.wrapping_sub(base) < place.count { prim - base } else { NO_PRIM };
         Ask {
             segments: self.segments,
             i: self.i,
             masks: self.masks,
-            object: Some(line),
+            line: OnceCell::from(line),
             base,
             masked,
             first: local(self.first),
@@ -78,8 +80,8 @@ impl<'a, M: Masks> Ask<'a, M> {
 
     /// The line as the law takes it.
     #[inline]
-    pub fn line(&self) -> Line {
-        self.object.map_or_else(|| Line::of(self.segments, self.i), |line| *line)
+    pub fn line(&self) -> &Line {
+        self.line.get_or_init(|| Line::of(self.segments, self.i))
     }
 
     /// World number of primitive `id`.
@@ -104,34 +106,34 @@ pub(crate) struct Best {
     pub prim: PrimId,
     /// No primitive beyond this t matters: the asked tmax, later t (1 + 2⁻²⁸) rounded up.
     pub limit: f32,
-    /// The corners, if it is a triangle.
-    pub corners: Option<[[f32; 3]; 3]>,
-    /// The place (by index) in whose space the corners are; `None` = the world.
-    pub place: Option<u32>,
+    /// Where on it.
+    pub uv: [f32; 2],
 }
 
 impl Best {
     /// No hit before `tmax`.
     pub fn none(tmax: f32) -> Best {
-        Best { t: f64::INFINITY, prim: NO_PRIM, limit: tmax, corners: None, place: None }
+        Best { t: f64::INFINITY, prim: NO_PRIM, limit: tmax, uv: [0.0; 2] }
     }
 
-    /// Takes the hit of `prim` at `t` if it is closer, or as close with a smaller number. Says whether it did.
+    /// Takes the hit of `prim` at `t` and `uv`, which [`improves`](Best::improves).
     #[inline]
-    pub fn offer(&mut self, t: f64, prim: PrimId, corners: Option<[[f32; 3]; 3]>) -> bool {
-        if !self.improves(t, prim) {
-            return false;
-        }
-        (self.t, self.prim, self.corners) = (t, prim, corners);
+    pub fn take(&mut self, t: f64, prim: PrimId, uv: [f32; 2]) {
+        (self.t, self.prim, self.uv) = (t, prim, uv);
         let limit = t * (1.0 + 1.0 / 268_435_456.0);
         let up = limit as f32;
         self.limit = self.limit.min(if f64::from(up) < limit { up.next_up() } else { up });
-        true
     }
 
-    /// The hit of `prim` at `t` would be taken.
+    /// A hit of `prim` at `t` is closer, or as close with a smaller number.
     #[inline]
     pub fn improves(&self, t: f64, prim: PrimId) -> bool {
         t < self.t || (t == self.t && prim < self.prim)
+    }
+
+    /// Writes it as entry `i`, which is a miss so far.
+    #[inline]
+    pub fn write(&self, i: usize, out: &mut Hits) {
+        (out.t[i], out.prim[i], out.uv[i]) = (self.t, self.prim, self.uv);
     }
 }

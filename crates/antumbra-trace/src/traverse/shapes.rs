@@ -62,7 +62,7 @@ impl<M: Masks> ExactVisit for ShapeVisit<'_, M> {
             let Some(t) = law::shape(&self.line, &s.shape) else { continue };
             let prim = self.ask.world_prim(s.prim);
             if best.improves(t, prim) && !self.goes_through(s) {
-                best.offer(t, prim, None);
+                best.take(t, prim, [0.0; 2]);
             }
         }
     }

@@ -117,7 +117,7 @@ impl<'a, S: Simd, M: Masks, const PLACED: bool> NearestTriangle<'a, S, M, PLACED
         for k in 0..self.kept {
             let Candidate { leaf, lane, from } = self.candidates[k];
             if from <= self.best.limit {
-                offer(self.of, self.ask, &line, leaf as usize, 1 << lane, &mut self.best);
+                offer(self.of, self.ask, line, leaf as usize, 1 << lane, &mut self.best);
             }
         }
         self.kept = 0;
@@ -131,7 +131,7 @@ impl<S: Simd, M: Masks, const PLACED: bool> VisitNearest<S> for NearestTriangle<
             filter_with_t::<S, PLACED>(simd, &self.of.blocks[leaf], &self.ray, self.best.limit);
         if verdict.lanes() != 0 {
             if M::ASK {
-                offer(self.of, self.ask, &self.ask.line(), leaf, verdict.lanes(), &mut self.best);
+                offer(self.of, self.ask, self.ask.line(), leaf, verdict.lanes(), &mut self.best);
             } else {
                 self.keep(leaf, verdict, &t);
             }
@@ -143,7 +143,6 @@ impl<S: Simd, M: Masks, const PLACED: bool> VisitNearest<S> for NearestTriangle<
 /// One of `lanes` blocks the line; those in `certain` are known to be hit.
 #[inline(never)]
 fn blocks<M: Masks>(of: &TriangleTree, ask: &Ask<'_, M>, leaf: usize, mut lanes: u32, certain: u32) -> bool {
-    let mut line: Option<Line> = None;
     while lanes != 0 {
         let lane = lanes.trailing_zeros() as usize;
         lanes &= lanes - 1;
@@ -156,7 +155,7 @@ fn blocks<M: Masks>(of: &TriangleTree, ask: &Ask<'_, M>, leaf: usize, mut lanes:
             return true;
         }
         let corners = of.blocks[leaf].triangle(lane);
-        let line = line.get_or_insert_with(|| ask.line());
+        let line = ask.line();
         if law::blocks(line, corners) && !(masked && ask.goes_through(id, law::barycentrics(line, corners))) {
             return true;
         }
@@ -186,9 +185,9 @@ fn offer<M: Masks>(
         if !best.improves(t, prim) {
             continue;
         }
-        let masked = M::ASK && of.is_masked(ask, leaf, lane);
-        if !(masked && ask.goes_through(id, law::barycentrics(line, corners))) {
-            best.offer(t, prim, Some(corners));
+        let uv = law::barycentrics(line, corners);
+        if !(M::ASK && of.is_masked(ask, leaf, lane) && ask.goes_through(id, uv)) {
+            best.take(t, prim, uv);
         }
     }
 }
@@ -219,6 +218,6 @@ impl<M: Masks> ExactVisit for ExactTriangles<'_, M> {
 
     fn nearest(&mut self, leaf: usize, best: &mut Best, count: &mut impl Count) {
         count.primitives(self.of.count(leaf));
-        offer(self.of, self.ask, &self.ask.line(), leaf, 0xff, best);
+        offer(self.of, self.ask, self.ask.line(), leaf, 0xff, best);
     }
 }
