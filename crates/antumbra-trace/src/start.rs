@@ -3,7 +3,7 @@
 //! The start is lifted from the surface by h = 2⁻²¹ M along the unit normal, M the largest coordinate in play, and
 //! rounded to f32 once. That is proved to clear the own triangle, its coplanar and its convex neighbours at every scale.
 
-use crate::law::{side_of_direction, side_of_point, volume};
+use crate::law::{facing, side_of_direction, side_of_point, volume};
 
 /// 2⁻²¹: the lift as a part of the largest coordinate (LAW §5, T5).
 const LIFT: f64 = 1.0 / 2_097_152.0;
@@ -24,7 +24,7 @@ pub fn start_on_placed_triangle(
     extent: f64,
 ) -> [f32; 3] {
     let m = corners.iter().fold(largest(p).max(extent), |m, c| m.max(largest(*c)));
-    let front = side_of_direction(n_toward, corners);
+    let front = front(n_toward, corners);
     let mut h = LIFT * m;
     let mut o = lift(p, n_toward, h);
     // At once in all but made-up cases; ends because h reaches infinity.
@@ -53,6 +53,18 @@ fn lift(p: [f64; 3], n: [f64; 3], h: f64) -> [f32; 3] {
 /// |x|∞.
 fn largest(x: [f64; 3]) -> f64 {
     x.iter().fold(0.0, |m, c| m.max(c.abs()))
+}
+
+/// The exact side to which `n` points: +1 in front, 0 along the plane.
+fn front(n: [f64; 3], corners: [[f64; 3]; 3]) -> i32 {
+    let (det, bound) = facing(n, corners);
+    if det > bound {
+        1
+    } else if det < -bound {
+        -1
+    } else {
+        side_of_direction(n, corners)
+    }
 }
 
 /// The exact side of the triangle on which `o` lies: +1 in front (corners counter-clockwise), 0 on the plane.

@@ -25,7 +25,7 @@ pub use exact::stage2;
 pub use stage1::{Verdict, stage1};
 
 pub(crate) use exact::{side_of_direction, side_of_point};
-pub(crate) use stage1::volume;
+pub(crate) use stage1::{facing, volume};
 
 /// Weights are taken from stage 1 while its bounds are below this part of their sum: 2⁻³⁰.
 const WEIGHT_BOUND: f64 = 1.0 / 1_073_741_824.0;

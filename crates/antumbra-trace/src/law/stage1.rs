@@ -96,6 +96,13 @@ pub(crate) fn volume(o: [f64; 3], corners: [[f64; 3]; 3]) -> (f64, f64) {
     (dot(v.from_o[0], cross(v.e[0], v.e[1])), TEN_W * bound)
 }
 
+/// d·n and its bound.
+#[inline]
+pub(crate) fn facing(d: [f64; 3], corners: [[f64; 3]; 3]) -> (f64, f64) {
+    let (e0, e1) = (sub(corners[1], corners[0]), sub(corners[2], corners[1]));
+    (dot(d, cross(e0, e1)), TEN_W * dot(d.map(f64::abs), cross_bound(e0, e1)))
+}
+
 /// Stage 1. `line` is valid; corners are f32 numbers.
 #[doc(hidden)]
 #[inline]
