@@ -1,0 +1,12 @@
+//! It is right: laws across the rooms of the core, each judged against its own standard error with fixed seeds.
+//!
+//! Every test states one α for all its comparisons (Šidák); `ANTUMBRA_STRESS=1` takes more rays.
+
+mod closed;
+mod closed_ao;
+mod judge;
+mod lengths;
+mod scenes;
+mod sky;
+mod table;
+mod variance;
