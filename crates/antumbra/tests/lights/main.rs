@@ -8,6 +8,7 @@ mod draws;
 mod faults;
 mod power;
 mod samplers;
+mod scale;
 mod surface;
 
 use antumbra::bsdf::{Bsdf, Diffuse};
