@@ -45,10 +45,35 @@ pub fn share_out(weights: impl Iterator<Item = f32> + Clone, ends: &mut Vec<u32>
 #[inline]
 pub fn pick(ends: &[u32], u: f32) -> Option<Choice> {
     let step = ((u * STEPS as f32) as u32).min(STEPS - 1);
-    let index = ends.partition_point(|end| *end <= step);
+    let index = find(ends, step);
     let (low, high) = part(ends, index)?;
     let rest = ((step - low) as f32 + 0.5) / (high - low) as f32;
     Some(Choice { index, prob: (high - low) as f32 / STEPS as f32, rest: rest.min(real::ONE_MINUS) })
+}
+
+/// The first index whose end lies beyond `step`, or the number of ends. Searched outwards from where it would be if all
+/// weights were equal: near, and in the same lines of the cache, for even weights (a row of a sky); as fast as halving
+/// for the others.
+#[inline]
+fn find(ends: &[u32], step: u32) -> usize {
+    let beyond = |i: usize| ends[i] > step;
+    let guess = ((u64::from(step) * ends.len() as u64) >> 24) as usize;
+    let (mut low, mut high) = (guess, guess);
+    let mut stride = 1;
+    if guess < ends.len() && beyond(guess) {
+        while low > 0 && beyond(low - 1) {
+            high = low - 1;
+            low = high.saturating_sub(stride);
+            stride *= 2;
+        }
+    } else {
+        while high < ends.len() && !beyond(high) {
+            low = high + 1;
+            high = (low + stride).min(ends.len());
+            stride *= 2;
+        }
+    }
+    low + ends[low..high].partition_point(|end| *end <= step)
 }
 
 /// The probability of weight `index`.
@@ -83,6 +108,24 @@ mod tests {
         for (i, n) in seen.iter().enumerate() {
             assert_eq!(*n as f32 / STEPS as f32, prob(&ends, i));
             assert_eq!(*n > 0, weights[i] > 0.0, "weight {i}");
+        }
+    }
+
+    /// The search finds what halving finds, in even, hot and empty tables.
+    #[test]
+    fn the_search_finds_the_end() {
+        let tables: [Vec<f32>; 4] = [
+            vec![1.0; 1000],
+            (0..1000).map(|i| if i == 17 { 1e9 } else { 1.0 }).collect(),
+            (0..1000).map(|i| f32::from(i >= 990)).collect(),
+            vec![0.0; 3],
+        ];
+        for weights in tables {
+            let mut ends = Vec::new();
+            share_out(weights.iter().copied(), &mut ends);
+            for step in (0..STEPS).step_by(997).chain([STEPS - 1]) {
+                assert_eq!(find(&ends, step), ends.partition_point(|end| *end <= step));
+            }
         }
     }
 
