@@ -5,8 +5,9 @@ use std::ops::Range;
 use antumbra_math::Vec3;
 use antumbra_trace::{Bits, Hits, NO_PRIM, Visibility};
 
-use crate::estimator::{AnyEstimator, Draws, Found, Proposals, propose_planes};
+use crate::estimator::{AnyEstimator, Draws, Found, FoundLight, Proposals, propose_planes};
 use crate::film::{Film, Planes};
+use crate::light::sampler::Scratch as LightWeights;
 use crate::receiver::Receiver;
 use crate::sampler::{AnySampler, PassPlan};
 use crate::scene::{Look, Scene};
@@ -62,6 +63,7 @@ pub struct Buffers {
     proposals: Proposals,
     blocked: Bits,
     hits: Hits,
+    weights: LightWeights,
 }
 
 /// Sums what arrives at the cells of `tile` in `passes` into `film`.
@@ -135,7 +137,10 @@ fn follow(job: &Job<'_>, film: &mut Film, b: &mut Buffers, counts: &mut Counts) 
             let weight = match onward.found {
                 Found::Nothing => return,
                 Found::All => 1.0,
-                Found::Weighed => job.estimator.found_weight(job.scene, from, onward, light, wi),
+                Found::Weighed => {
+                    let found = FoundLight { from, ray: onward, light, wi };
+                    job.estimator.found_weight(job.scene, &found, &mut b.weights)
+                }
             };
             let carried = onward.throughput * radiance * weight;
             film.add(Planes::BEAUTY, from.cell, carried);

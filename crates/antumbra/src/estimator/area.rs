@@ -19,9 +19,8 @@ impl Area {
 
 impl Estimator for Area {
     fn propose(&self, scene: &Scene, at: &[Receiver], u: &Draws<'_>, out: &mut Proposals) {
-        let mut scratch = Vec::new();
         for at in at.iter().filter(|at| sees_lights(&at.bsdf)) {
-            self.lights.propose(scene, at, u, None, &mut scratch, out);
+            self.lights.propose(scene, at, u, None, out);
         }
     }
 

@@ -3,7 +3,7 @@
 use antumbra_math::Rgb;
 
 use super::proposals::plane_of;
-use super::{Draws, Mistake, Options, Proposals};
+use super::{Draws, FoundLight, Mistake, Options, Proposals};
 use crate::bsdf::Bsdf;
 use crate::density::Density;
 use crate::film::Planes;
@@ -40,7 +40,6 @@ pub struct Lights {
     sampler: Option<LightSampler>,
     how: LightPoints,
     mistake: Mistake,
-    rays: u32,
 }
 
 impl Lights {
@@ -56,7 +55,7 @@ impl Lights {
             LightChoice::Power => Some(Choose::Power),
         };
         let sampler = choose.map(|c| LightSampler::new(c, scene.lights(), scene.radius()));
-        Lights { sampler, how: options.light_points, mistake: options.mistake, rays: options.shadow_rays }
+        Lights { sampler, how: options.light_points, mistake: options.mistake }
     }
 
     /// Proposes N segments to the lights (or to each light), weighed against drawing the direction from `other`.
@@ -66,7 +65,6 @@ impl Lights {
         at: &Receiver,
         u: &Draws<'_>,
         other: Option<&dyn Fn(&LightSample) -> f32>,
-        scratch: &mut Scratch,
         out: &mut Proposals,
     ) {
         let n = u.count(at);
@@ -80,12 +78,14 @@ impl Lights {
                 }
             }
             Some(sampler) => {
-                let chooser = sampler.prepare(scene.lights(), at, scratch);
+                let mut weights = std::mem::take(&mut out.light_weights);
+                let chooser = sampler.prepare(scene.lights(), at, &mut weights);
                 for j in 0..n {
-                    let Some(pick) = chooser.pick(u.one(at, Use::LightChoice, j)) else { return };
+                    let Some(pick) = chooser.pick(u.one(at, Use::LightChoice, j)) else { break };
                     let point = u.pair(at, Use::LightPoint, j);
                     self.shadow_ray(scene, at, (pick.light, pick.prob), point, n, other, out);
                 }
+                out.light_weights = weights;
             }
         }
     }
@@ -119,13 +119,13 @@ impl Lights {
         }
     }
 
-    /// n · p(light) · p(ω): how densely light sampling draws a direction that found `light`.
-    pub fn density(&self, scene: &Scene, at: &Receiver, light: LightId, wi: antumbra_math::World) -> f32 {
+    /// p(light) · p(ω): how densely one shadow ray draws the direction that found a light.
+    pub fn density(&self, scene: &Scene, found: &FoundLight<'_>, scratch: &mut Scratch) -> f32 {
         let prob = match &self.sampler {
             None => 1.0,
-            Some(sampler) => sampler.prepare(scene.lights(), at, &mut Vec::new()).prob(light),
+            Some(sampler) => sampler.prepare(scene.lights(), found.from, scratch).prob(found.light),
         };
-        prob * scene.lights()[light as usize].pdf(at, wi, self.how)
+        prob * scene.lights()[found.light as usize].pdf(found.from, found.wi, self.how)
     }
 
     /// The factor by which a wrong estimator differs from the right one.
@@ -149,11 +149,6 @@ impl Lights {
             Mistake::WrongMeasure => s.cos / distance2,
             _ => 1.0,
         }
-    }
-
-    /// The mistake and the number of shadow rays that were asked for.
-    pub fn mistake(&self) -> (Mistake, u32) {
-        (self.mistake, self.rays)
     }
 }
 

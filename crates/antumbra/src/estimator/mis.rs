@@ -1,12 +1,10 @@
 //! Both `area` and `hemisphere`, N samples each, weighed by the balance heuristic (Veach & Guibas 1995). Direct light.
 
-use antumbra_math::World;
-
 use super::hemisphere::Directions;
 use super::lights::{Lights, balance, sees_lights};
-use super::{Draws, Estimator, Found, Mistake, Onward, Options, Proposals};
+use super::{Draws, Estimator, Found, FoundLight, Mistake, Onward, Options, Proposals};
+use crate::light::LightSample;
 use crate::light::sampler::Scratch;
-use crate::light::{LightId, LightSample};
 use crate::receiver::Receiver;
 use crate::scene::Scene;
 
@@ -32,7 +30,6 @@ impl Mis {
         u: &Draws<'_>,
         directions: u32,
         goes_on: f32,
-        scratch: &mut Scratch,
         out: &mut Proposals,
     ) {
         let n = u.count(at) as f32;
@@ -41,7 +38,7 @@ impl Mis {
         let other = |s: &LightSample| self.directions.pdf(at, at.to_local(s.wi)) * directions as f32 / n;
         if sees_lights(&at.bsdf) {
             let other: Option<&dyn Fn(&LightSample) -> f32> = if twice { None } else { Some(&other) };
-            self.lights.propose(scene, at, u, other, scratch, out);
+            self.lights.propose(scene, at, u, other, out);
         }
         let share = if self.mistake == Mistake::NoCount { 1.0 } else { 1.0 / directions as f32 };
         for j in 0..directions {
@@ -52,29 +49,26 @@ impl Mis {
         }
     }
 
-    /// Share of a direction that found `light`, against `rays` shadow rays for `directions` directions.
+    /// Share of a direction that found a light, against `rays` shadow rays for each direction.
     pub(super) fn weight(
         &self,
         scene: &Scene,
-        from: &Receiver,
-        ray: &Onward,
-        light: LightId,
-        wi: World,
+        found: &FoundLight<'_>,
         rays: f32,
+        scratch: &mut Scratch,
     ) -> f32 {
-        balance(ray.density.pdf(), rays * self.lights.density(scene, from, light, wi))
+        balance(found.ray.density.pdf(), rays * self.lights.density(scene, found, scratch))
     }
 }
 
 impl Estimator for Mis {
     fn propose(&self, scene: &Scene, at: &[Receiver], u: &Draws<'_>, out: &mut Proposals) {
-        let mut scratch = Vec::new();
         for (from, at) in at.iter().enumerate() {
-            self.propose_at(scene, (from, at), u, u.count(at), 0.0, &mut scratch, out);
+            self.propose_at(scene, (from, at), u, u.count(at), 0.0, out);
         }
     }
 
-    fn found_weight(&self, scene: &Scene, from: &Receiver, ray: &Onward, light: LightId, wi: World) -> f32 {
-        self.weight(scene, from, ray, light, wi, 1.0)
+    fn found_weight(&self, scene: &Scene, found: &FoundLight<'_>, scratch: &mut Scratch) -> f32 {
+        self.weight(scene, found, 1.0, scratch)
     }
 }

@@ -24,6 +24,7 @@ pub use surfaces::Surfaces;
 
 use antumbra_math::{World, hash};
 
+use crate::light::sampler::Scratch;
 use crate::light::{LightId, LightPoints};
 use crate::receiver::Receiver;
 use crate::sampler::{AnySampler, PassPlan, Use};
@@ -115,20 +116,25 @@ impl<'a> Draws<'a> {
     }
 }
 
+/// Light that a ray found.
+pub struct FoundLight<'a> {
+    /// The receiver that it left.
+    pub from: &'a Receiver,
+    /// The ray.
+    pub ray: &'a Onward,
+    /// The light.
+    pub light: LightId,
+    /// ω_i of the ray.
+    pub wi: World,
+}
+
 /// What each kind of estimator answers.
 pub trait Estimator: Sync {
     /// Segments that carry light if they are free; rays that carry throughput onward.
     fn propose(&self, scene: &Scene, at: &[Receiver], u: &Draws<'_>, out: &mut Proposals);
 
     /// Weight of light that a ray found (`Found::Weighed`): this strategy against light sampling.
-    fn found_weight(
-        &self,
-        _scene: &Scene,
-        _from: &Receiver,
-        _ray: &Onward,
-        _light: LightId,
-        _wi: World,
-    ) -> f32 {
+    fn found_weight(&self, _scene: &Scene, _found: &FoundLight<'_>, _scratch: &mut Scratch) -> f32 {
         1.0
     }
 
@@ -160,10 +166,8 @@ macro_rules! kinds {
                 match self { $(AnyEstimator::$kind(e) => e.propose(scene, at, u, out)),* }
             }
             /// See [`Estimator::found_weight`].
-            pub fn found_weight(
-                &self, scene: &Scene, from: &Receiver, ray: &Onward, light: LightId, wi: World,
-            ) -> f32 {
-                match self { $(AnyEstimator::$kind(e) => e.found_weight(scene, from, ray, light, wi)),* }
+            pub fn found_weight(&self, scene: &Scene, found: &FoundLight<'_>, scratch: &mut Scratch) -> f32 {
+                match self { $(AnyEstimator::$kind(e) => e.found_weight(scene, found, scratch)),* }
             }
             /// See [`Estimator::blind_to`].
             pub fn blind_to(&self, scene: &Scene) -> Vec<String> {

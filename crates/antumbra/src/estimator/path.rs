@@ -2,11 +2,9 @@
 //!
 //! Light that the direction finds is the same direct light a second way: the two are weighed as in `mis`.
 
-use antumbra_math::World;
-
 use super::mis::Mis;
-use super::{Draws, Estimator, Onward, Options, Proposals};
-use crate::light::LightId;
+use super::{Draws, Estimator, FoundLight, Options, Proposals};
+use crate::light::sampler::Scratch;
 use crate::receiver::Receiver;
 use crate::sampler::Use;
 use crate::scene::Scene;
@@ -46,16 +44,15 @@ pub(super) fn survive(at: &Receiver, u: &Draws<'_>, bounces: u32, roulette: bool
 
 impl Estimator for Path {
     fn propose(&self, scene: &Scene, at: &[Receiver], u: &Draws<'_>, out: &mut Proposals) {
-        let mut scratch = Vec::new();
         for (from, at) in at.iter().enumerate() {
             // One ray looks for light (always) and goes on (if the roulette says so).
             let goes_on = survive(at, u, self.bounces, self.roulette);
-            self.mis.propose_at(scene, (from, at), u, 1, goes_on, &mut scratch, out);
+            self.mis.propose_at(scene, (from, at), u, 1, goes_on, out);
         }
     }
 
-    fn found_weight(&self, scene: &Scene, from: &Receiver, ray: &Onward, light: LightId, wi: World) -> f32 {
-        let rays = if from.bounce == 0 { self.shadow_rays as f32 } else { 1.0 };
-        self.mis.weight(scene, from, ray, light, wi, rays)
+    fn found_weight(&self, scene: &Scene, found: &FoundLight<'_>, scratch: &mut Scratch) -> f32 {
+        let rays = if found.from.bounce == 0 { self.shadow_rays as f32 } else { 1.0 };
+        self.mis.weight(scene, found, rays, scratch)
     }
 }

@@ -5,6 +5,7 @@ use antumbra_trace::{SegmentBuffer, TO_POINT};
 
 use crate::density::Density;
 use crate::film::Planes;
+use crate::light::sampler::Scratch;
 use crate::light::{End, LightSample};
 use crate::receiver::Receiver;
 
@@ -56,6 +57,8 @@ pub struct Proposals {
     pub rays: SegmentBuffer,
     /// What each carries.
     pub onward: Vec<Onward>,
+    /// Room for the choice among many lights.
+    pub light_weights: Scratch,
     /// Teaching switch: segments do not end at the light.
     pub beyond_lights: bool,
 }
