@@ -50,14 +50,14 @@ fn build(values: &Values) -> SceneBuilder {
     let radius = values.get("light-radius") as f32;
     let center = DVec3::new(-1.4, 8.2, -4.0);
     let normal = (DVec3::new(0.3, 0.0, 1.0) - center).normalize().as_vec3();
-    let warm = Rgb::new(1.0, 0.90, 0.74) * (75.0 / (radius * radius));
+    let warm = Rgb::new(1.0, 0.90, 0.74) * (96.0 / (radius * radius));
     scene.light("key", Disk::new(center.as_vec3(), normal, radius, warm));
     // A wide, weak second light from above keeps the umbra readable: cool, so that the two can be told apart.
     let cool = Rgb::new(0.55, 0.75, 1.0) * 0.16;
     let (corner, u, v) = (DVec3::new(-5.0, 10.0, -2.0), DVec3::X * 10.0, DVec3::Z * 8.0);
     scene.light("fill", Rectangle::new(corner.as_vec3(), u.as_vec3(), v.as_vec3(), cool));
 
-    let eye = DVec3::new(0.7, 7.6, 10.8);
-    scene.cameras.push(Camera::perspective(eye, DVec3::new(0.55, 0.8, 0.5), 31.0).sized(800, 480));
+    let eye = DVec3::new(1.1, 7.6, 10.8);
+    scene.cameras.push(Camera::perspective(eye, DVec3::new(0.72, 0.72, 0.6), 29.5).sized(800, 480));
     scene
 }

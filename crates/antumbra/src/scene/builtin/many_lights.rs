@@ -82,7 +82,7 @@ fn lamps(scene: &mut SceneBuilder, count: u32) {
     let mut dice = Dice::new(7);
     let radius = 0.07 * (400.0 / f64::from(count)).sqrt().clamp(0.08, 3.0);
     // Φ = 4π² r² L, shared by all.
-    let radiance = 3.6 / (f64::from(count) * radius * radius);
+    let radiance = 4.2 / (f64::from(count) * radius * radius);
     let mut hung = 0;
     while hung < count {
         let part = dice.unit();

@@ -5,7 +5,7 @@ use antumbra_trace::Shape;
 
 use super::solids::{quad, single};
 use super::{Builtin, Parameter, Values};
-use crate::light::Sphere;
+use crate::light::{Environment, Sphere};
 use crate::scene::{Camera, Material, SceneBuilder};
 
 pub(super) const SCENE: Builtin = Builtin {
@@ -40,6 +40,8 @@ fn build(values: &Values) -> SceneBuilder {
     }
 
     scene.light("light", Sphere::new(World::ZERO, LIGHT, Rgb::new(1.0, 0.92, 0.80) * 720.0));
+    // So weak that it only tells things from the dark, whatever the plane hides.
+    scene.light("dusk", Environment::constant(Rgb::new(0.012, 0.016, 0.024)));
 
     let eye = DVec3::new(2.4, 1.9, 6.9);
     scene.cameras.push(Camera::perspective(eye, DVec3::new(0.0, -0.08, 0.0), 33.0).sized(640, 480));

@@ -39,8 +39,8 @@ fn build(values: &Values) -> SceneBuilder {
     let corner = center - (u + v) * 0.5;
     scene.light("light", Rectangle::new(corner.as_vec3(), u.as_vec3(), v.as_vec3(), radiance));
 
-    let eye = DVec3::new(0.9, 1.75, 4.9);
-    scene.cameras.push(Camera::perspective(eye, DVec3::new(0.0, 0.93, 0.0), 30.0).sized(640, 480));
+    let eye = DVec3::new(0.9, 2.5, 4.7);
+    scene.cameras.push(Camera::perspective(eye, DVec3::new(0.05, 0.80, 0.0), 31.0).sized(640, 480));
     scene
 }
 

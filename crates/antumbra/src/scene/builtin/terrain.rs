@@ -25,7 +25,7 @@ fn build(_: &Values) -> SceneBuilder {
     let mesh = scene.mesh(painted());
     scene.place("land", mesh, land, antumbra_math::Transform::IDENTITY);
 
-    let to_sun = DVec3::new(-0.62, 0.36, 0.42).normalize();
+    let to_sun = DVec3::new(-0.72, 0.34, 0.08).normalize();
     let half_angle = 0.2666_f64.to_radians();
     // E = π L sin² of the half angle = 3.4.
     let radiance = 3.4 / (std::f64::consts::PI * half_angle * half_angle);
