@@ -1,13 +1,56 @@
 """`antumbra render`: a picture of a scene."""
 
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from antumbra import _core, settings
+from antumbra.cli import _say, _scene
 from antumbra.cli._command import GROUPS, Option, Verb
+from antumbra.cli._progress import Bar
+from antumbra.errors import RenderStopped
+
+if TYPE_CHECKING:
+    from antumbra.image import Image
+    from antumbra.scene import Scene
 
 ORDER = 1
+STOPPED = 130
 
 
-def run(**kw):
+def run(
+    scene: str,
+    output: str | None,
+    definitions: tuple[str, ...],
+    up_axis: str | None,
+    files_from: str | None,
+    settings: dict[str, str],
+    quiet: bool,
+    verbose: bool,
+) -> int:
     """Render SCENE to an EXR or PNG picture."""
-    print(kw)
+    path = _output(output or f"{_scene.stem(scene)}.exr")
+    _check(settings, path)
+    opened = _scene.open_scene(scene, definitions, up_axis, files_from)
+    _scene.tell(opened, quiet)
+    head = f"  {opened.name} · {_facts(opened)} · {_plan(opened, settings)}"
+    watched = sys.stderr.isatty()
+    if watched and not quiet:
+        print(head, file=sys.stderr, flush=True)
+    try:
+        with Bar(quiet) as bar:
+            image = opened.render(progress=bar.show, **settings)
+    except RenderStopped as stopped:
+        return _stopped(stopped.image, path)
+    image.save(path)
+    if not watched and not quiet:
+        print(head, file=sys.stderr)
+    print(_ending(image, path))
+    return 0
 
 
 VERB = Verb(
@@ -20,5 +63,66 @@ VERB = Verb(
         ("antumbra render room.glb --viewing-rays 64 -o room.png", ""),
         ("antumbra render pillars --estimator area --shadow-rays 9 -D light-size=0.5", ""),
     ],
-    options=[Option("-o", group="Files", metavar="FILE", help="the picture, .exr or .png [NAME.exr]")],
+    options=[
+        Option(
+            "-o",
+            "--output",
+            "output",
+            group="Files",
+            metavar="FILE",
+            help="the picture, .exr or .png [NAME.exr]",
+        ),
+        *_scene.options(),
+    ],
 )
+
+
+def _output(name: str) -> Path:
+    path = Path(name)
+    if path.suffix.lower() not in (".exr", ".png"):
+        raise click.UsageError(f'"{name}": a picture ends in .exr or .png')
+    return path
+
+
+def _check(given: dict[str, str], path: Path) -> None:
+    """Says at once what would go wrong at the end."""
+    settings.words(given)
+    try:
+        _core.check_writable(str(path))
+    except OSError as problem:
+        reason = (problem.strerror or str(problem)).lower()
+        raise click.UsageError(f"{path} cannot be written ({reason}). Nothing was rendered.") from problem
+
+
+def _facts(scene: Scene) -> str:
+    return " · ".join(_say.some(n, word) for word, n in scene._core.counts())
+
+
+def _plan(scene: Scene, given: dict[str, str]) -> str:
+    value = {name: given.get(name, setting.default) for name, setting in settings.table().items()}
+    width, height = scene._core.picture_size(list(given.items()))
+    shadow = _say.some(int(value["shadow_rays"]), "shadow ray")
+    return f"{width} × {height} · {value['estimator']}, {value['viewing_rays']} viewing × {shadow}, {value['sampler']}"
+
+
+def _ending(image: Image, path: Path) -> str:
+    rate = image.shadow_rays / max(image.seconds, 1e-9)
+    parts = [
+        _say.seconds(image.seconds),
+        f"{_say.count(image.shadow_rays)} shadow rays, {_say.significant(rate / 1e6)} M/s",
+    ]
+    if image.relative_error is not None:
+        parts.append(f"standard error {_say.significant(100 * image.relative_error, 2)} % of the mean")
+    parts.append(f"same bits: {image.hash[:8]}")
+    return f"{path}   {' · '.join(parts)}"
+
+
+def _stopped(image: Image | None, path: Path) -> int:
+    if image is None:
+        print(f"stopped before the first pass was done; {path} was not written", file=sys.stderr)
+    else:
+        image.save(path)
+        print(
+            f"stopped after {image.passes_done} of {image.passes} passes; {path} holds them", file=sys.stderr
+        )
+    return STOPPED

@@ -1,0 +1,89 @@
+"""Arrays that people give: checked for shape and kind here, read by the core as they lie, whatever their stride."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from antumbra.hit import Receivers
+
+Array = NDArray[np.float32] | NDArray[np.float64]
+
+
+def rows(name: str, value: Any, columns: int = 3) -> Array:
+    """An (N, `columns`) array of float32 or float64, as it lies; whole numbers and lists become float64.
+
+    Raises TypeError for what is no number, ValueError for another shape.
+    """
+    array = numbers(name, value)
+    if array.ndim == 1 and array.size == 0:
+        array = array.reshape(0, columns)
+    if array.ndim != 2 or array.shape[1] != columns:
+        raise ValueError(f"{name} has shape {array.shape}: (N, {columns}) is needed")
+    return array
+
+
+def numbers(name: str, value: Any) -> Array:
+    """An array of float32 or float64 of any shape."""
+    array = np.asarray(value)
+    if array.dtype.kind not in "fiu":
+        raise TypeError(f"{name} has dtype {array.dtype}: float32 or float64 is needed")
+    readable = array.dtype in (np.float32, np.float64) and array.dtype.isnative and array.flags.aligned
+    return array if readable else array.astype(np.float64)
+
+
+def matching(name: str, value: Any, other: str, count: int, columns: int = 3) -> Array:
+    """Rows, one for each of the `count` rows of `other`; a single vector stands for all."""
+    array = numbers(name, value)
+    if array.shape == (columns,) and columns != count:
+        return np.broadcast_to(array, (count, columns))
+    array = rows(name, array, columns)
+    if len(array) != count:
+        raise ValueError(
+            f"{other} has shape ({count}, 3), {name} has shape {array.shape}: one {_singular(name)} per "
+            f"{_singular(other)} is needed"
+        )
+    return array
+
+
+def indices(name: str, value: Any, columns: int, below: int, of: str) -> NDArray[np.uint32]:
+    """An (N, `columns`) array of whole numbers in [0, below)."""
+    array = np.asarray(value)
+    if array.size == 0:
+        return np.zeros((0, columns), np.uint32)
+    if array.dtype.kind not in "iu":
+        raise TypeError(f"{name} has dtype {array.dtype}: whole numbers are needed")
+    if array.ndim != 2 or array.shape[1] != columns:
+        raise ValueError(f"{name} has shape {array.shape}: (N, {columns}) is needed")
+    low, high = array.min(), array.max()
+    if low < 0 or high >= below:
+        raise ValueError(f"{name} asks for {of} {low if low < 0 else high}, but there are {below}")
+    return np.ascontiguousarray(array, np.uint32)
+
+
+def places(points: Any, normals: Any) -> tuple[Array | Receivers, Array | None]:
+    """What a query starts from: receivers of a hit, or points with one normal each."""
+    if isinstance(points, Receivers):
+        if normals is not None:
+            raise ValueError("receivers have their own normals: leave normals out")
+        return points, None
+    if normals is None:
+        raise ValueError("normals are missing: one per point is needed (or receivers of a hit)")
+    points = rows("points", points)
+    return points, matching("normals", normals, "points", len(points))
+
+
+def per_row(name: str, value: Any, count: int) -> NDArray[np.float64]:
+    """One number for each of `count` rows; a single one stands for all."""
+    array = numbers(name, value).astype(np.float64)
+    if array.ndim == 0:
+        return np.full(count, array)
+    if array.shape != (count,):
+        raise ValueError(f"{name} has shape {array.shape}: one number, or ({count},) is needed")
+    return array
+
+
+def _singular(name: str) -> str:
+    return name[:-1] if name.endswith("s") else name

@@ -1,0 +1,74 @@
+"""SCENE on the command line: a file, or the name of a built-in scene, with `-D`, `--up-axis` and `--files-from`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from antumbra import _core
+from antumbra.cli import _say
+from antumbra.cli._command import Option
+
+if TYPE_CHECKING:
+    from antumbra.scene import Scene
+
+
+def options() -> list[Option]:
+    """What every verb that opens a scene takes."""
+    return [
+        Option("-D", "definitions", group="Files", metavar="NAME=VALUE", multiple=True,
+               help="a parameter of a built-in scene, or a $name of a file (may be repeated)"),
+        Option("--up-axis", group="Files", metavar="NAME",
+               help="the axis that points up in the file: y, z (default: what the format says)"),
+        Option("--files-from", group="Files", metavar="DIR",
+               help="the folder that the scene's own paths may reach (default: its own folder)"),
+    ]  # fmt: skip
+
+
+def open_scene(
+    scene: str, definitions: tuple[str, ...], up_axis: str | None, files_from: str | None
+) -> Scene:
+    """Reads or builds it. A path that exists wins; a name with a dot or a slash is always a file."""
+    from antumbra.scene import Scene
+
+    given = [_definition(text) for text in definitions]
+    if Path(scene).exists() or "." in scene or "/" in scene:
+        return Scene._of(_core.Scene.load(scene, up_axis, files_from, given, keep=False))
+    for option, value in (("--up-axis", up_axis), ("--files-from", files_from)):
+        if value is not None:
+            raise click.UsageError(f'{option} is for files: "{scene}" is a built-in scene')
+    known = [name for name, _, _ in _core.builtins()]
+    if scene not in known:
+        hint = _say.nearest_hint(scene, known)
+        raise click.UsageError(f'there is no scene "{scene}"{hint} ({", ".join(known)}; a file has a dot)')
+    return Scene._of(
+        _core.Scene.builtin(scene, [(name, _number(name, text)) for name, text in given], keep=False)
+    )
+
+
+def tell(scene: Scene, quiet: bool) -> None:
+    """Its notes and warnings, on standard error."""
+    if not quiet:
+        file = scene.name if "." in scene.name else ""
+        _say.messages(file, [(level, place, text) for level, place, text in scene.messages])
+
+
+def stem(scene: str) -> str:
+    """NAME of SCENE, for files that are called after it."""
+    return Path(scene).stem if "." in scene or "/" in scene else scene
+
+
+def _definition(text: str) -> tuple[str, str]:
+    name, equals, value = text.partition("=")
+    if not equals or not name:
+        raise click.UsageError(f"-D {text}: a name and its value are needed, as -D light-size=0.5")
+    return name, value
+
+
+def _number(name: str, text: str) -> float:
+    try:
+        return float(text)
+    except ValueError:
+        raise click.UsageError(f"-D {name}={text}: a number is needed") from None

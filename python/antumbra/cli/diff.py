@@ -1,0 +1,109 @@
+"""`antumbra diff`: how far a picture is from another one."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from antumbra import _core
+from antumbra.cli import _say
+from antumbra.cli._command import Option, Verb
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    Picture = NDArray[np.float32]
+
+ORDER = 3
+# relMSE divides by the reference's square plus this, so that black pixels do not decide alone.
+EPSILON = 0.01
+
+
+def run(a: str, b: str, output: str | None, json: bool, quiet: bool, verbose: bool) -> int:
+    """Compare picture A with the reference B: MSE, relMSE, FLIP, and a false-colour map of where they differ."""
+    if output is not None and Path(output).suffix.lower() != ".png":
+        raise click.UsageError(f'"{output}": the map is a .png')
+    first, second = _core.read_picture(a), _core.read_picture(b)
+    if first.shape != second.shape:
+        raise click.UsageError(f"{a} is {_size(first)}, {b} is {_size(second)}: the same size is needed")
+    shown = any(Path(name).suffix.lower() == ".png" for name in (a, b))
+    found, error = measures(first, second, shown)
+    if output is not None:
+        _write_map(error, output)
+    print(_as_json(found, a, b, output) if json else _as_text(found, a, b, first, output))
+    return 0
+
+
+VERB = Verb(
+    "diff",
+    run,
+    arguments=[("A", True), ("B", True)],
+    examples=[
+        ("antumbra diff mine.exr reference.exr", "three numbers"),
+        ("antumbra diff mine.exr reference.exr -o map.png", "and where they differ"),
+        ("antumbra diff mine.png yours.png --json", "for programs"),
+    ],
+    options=[
+        Option("-o", "--output", "output", group="Files", metavar="FILE", help="the false-colour map, .png"),
+        Option("--json", is_flag=True, group="Run", help="the numbers as JSON"),
+    ],
+)
+
+
+def measures(picture: Picture, reference: Picture, shown: bool) -> tuple[dict[str, float], Picture]:
+    """MSE and relMSE of linear values, mean FLIP, and the map of FLIP, (H, W) in [0, 1].
+
+    `shown`: compare as a screen shows them (values above 1 cut off), because one came from a PNG. FLIP: Andersson et
+    al. 2020, of a screen picture, and 2021, of a high dynamic range one.
+    """
+    import flip_evaluator
+    import numpy as np
+
+    if shown:
+        picture, reference = np.clip(picture, 0, 1), np.clip(reference, 0, 1)
+    a, b = picture.astype(np.float64), reference.astype(np.float64)
+    squares = (a - b) ** 2
+    flip_map, mean, _ = flip_evaluator.evaluate(
+        np.ascontiguousarray(np.maximum(reference, 0)),
+        np.ascontiguousarray(np.maximum(picture, 0)),
+        "LDR" if shown else "HDR",
+        inputsRGB=False,
+        applyMagma=False,
+    )
+    found = {
+        "mse": float(squares.mean()),
+        "relmse": float((squares / (b**2 + EPSILON)).mean()),
+        "flip": float(mean),
+    }
+    return found, np.asarray(flip_map, np.float32)[..., 0]
+
+
+def _write_map(error: Picture, path: str) -> None:
+    from matplotlib import colormaps
+
+    _core.write_bytes(
+        path, bytes(_core.encode_png((255 * colormaps["magma"](error)[..., :3]).astype("uint8")))
+    )
+
+
+def _size(picture: Picture) -> str:
+    return f"{picture.shape[1]} × {picture.shape[0]}"
+
+
+def _as_text(found: dict[str, float], a: str, b: str, picture: Picture, output: str | None) -> str:
+    lines = [
+        f"{a} against {b}, {_size(picture)}",
+        f"MSE      {_say.significant(found['mse'])}",
+        f"relMSE   {_say.significant(found['relmse'])}",
+        f"FLIP     {_say.significant(found['flip'])}   (mean; 0: no difference seen, 1: black against white)",
+    ]
+    return "\n".join(lines + ([f"map      {output}"] if output else []))
+
+
+def _as_json(found: dict[str, float], a: str, b: str, output: str | None) -> str:
+    whole: dict[str, Any] = {"picture": a, "reference": b, **found, "map": output}
+    return json.dumps(whole, indent=1)

@@ -1,0 +1,134 @@
+"""A rendered picture with its error and everything that was summed beside it: `Image`."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from os import PathLike, fspath
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from antumbra import _core
+
+
+class Image:
+    """A picture in linear radiance [W·m⁻²·sr⁻¹] with its standard error, as `Scene.render` returns it.
+
+    It pickles, shows itself in a notebook, and stands for `pixels` where NumPy wants an array.
+    """
+
+    def __init__(self, picture: _core.Picture, *, name: str = "", seconds: float = 0.0) -> None:
+        """Wraps what the core returned."""
+        self._picture, self.name, self.seconds = picture, name, seconds
+
+    @property
+    def width(self) -> int:
+        """Pixels from left to right."""
+        return self._picture.width
+
+    @property
+    def height(self) -> int:
+        """Pixels from top to bottom."""
+        return self._picture.height
+
+    @cached_property
+    def pixels(self) -> NDArray[np.float32]:
+        """Radiance, (H, W, 3) float32, row 0 at the top."""
+        return self._picture.pixels()
+
+    @cached_property
+    def standard_error(self) -> NDArray[np.float32] | None:
+        """Standard error of each value of `pixels`, (H, W, 3) float32; None where there are too few viewing rays."""
+        return self._picture.standard_error()
+
+    @cached_property
+    def aov(self) -> dict[str, NDArray[np.float32]]:
+        """What `aov=` asked for, by name: (H, W, 3) or (H, W) float32."""
+        return dict(self._picture.aovs())
+
+    @property
+    def metadata(self) -> dict[str, str]:
+        """Settings, seed, version, scene hash: what the EXR file will say."""
+        return dict(self._picture.metadata)
+
+    @property
+    def passes_done(self) -> int:
+        """Passes that are in the picture: fewer than `passes` if it was stopped."""
+        return self._picture.passes_done
+
+    @property
+    def passes(self) -> int:
+        """Passes that were asked for."""
+        return self._picture.passes
+
+    @property
+    def shadow_rays(self) -> int:
+        """Shadow rays that were traced."""
+        return self._picture.segments
+
+    @property
+    def rays(self) -> int:
+        """Viewing rays and bounces that were traced."""
+        return self._picture.rays
+
+    @property
+    def hash(self) -> str:
+        """A number of the pixels' bits: the same picture has the same."""
+        return f"{self._picture.hash:016x}"
+
+    @property
+    def relative_error(self) -> float | None:
+        """Mean standard error of a pixel as a part of the mean pixel; None where it is unknown."""
+        return self._picture.relative_error()
+
+    def save(self, path: str | PathLike[str]) -> None:
+        """Writes an EXR (with all planes and metadata) or a PNG (the tone curve of the settings), whole or not at all.
+
+        Raises ValueError for another suffix, OSError where it cannot be written.
+        """
+        self._picture.save(fspath(path))
+
+    def png(self) -> bytes:
+        """The picture as a PNG file in memory."""
+        return bytes(self._picture.png())
+
+    def summary(self) -> str:
+        """Size, error and time in one line."""
+        parts = [f"{self.width} × {self.height}"]
+        if self.relative_error is not None:
+            parts.append(f"standard error {100 * self.relative_error:.2g} % of the mean")
+        if self.passes_done < self.passes:
+            parts.append(f"{self.passes_done} of {self.passes} passes")
+        if self.seconds:
+            parts.append(f"{self.seconds:.2g} s")
+        return " · ".join(parts)
+
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> NDArray[Any]:
+        """`pixels`, for NumPy."""
+        return np.array(self.pixels, dtype=dtype, copy=copy)
+
+    def __repr__(self) -> str:
+        """`<Image pillars: 640 × 480 · standard error 0.8 % of the mean · 2.1 s>`."""
+        return f"<Image {self.name}: {self.summary()}>"
+
+    def _repr_html_(self) -> str:
+        from antumbra.notebook import image_html
+
+        return image_html(self)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Pickles the arrays, not the core's object."""
+        return _rebuilt, (self._picture.parts(), self.name, self.seconds)
+
+
+def _rebuilt(parts: bytes, name: str, seconds: float) -> Image:
+    return Image(_core.Picture.from_parts(parts), name=name, seconds=seconds)
+
+
+def load_image(path: str | PathLike[str]) -> NDArray[np.float32]:
+    """Reads an EXR, HDR or PNG picture as linear (H, W, 3) float32.
+
+    Raises SceneError for a file that is not such a picture.
+    """
+    return _core.read_picture(fspath(path))

@@ -1,0 +1,181 @@
+"""Lights for `Scene.add_light`. World space, angles in radians; colours are one number or three (linear, Rec. 709).
+
+Area lights are surfaces: seen, hit, blocking and black. They shine from their front.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, cast
+
+from antumbra._values import Color, Fields, Vector, color, direction, length, vector, within
+
+if TYPE_CHECKING:
+    from os import PathLike
+
+    from numpy.typing import ArrayLike
+
+
+@dataclass(frozen=True)
+class Point:
+    """A point at `position` (3,) of radiant `intensity` I [W/sr], the same into every direction: E = I cos θ / r²."""
+
+    position: Vector
+    intensity: Color
+
+    def fields(self) -> Fields:
+        """Its numbers by name."""
+        return {
+            "position": vector("position", self.position),
+            "intensity": color("intensity", self.intensity),
+        }
+
+
+@dataclass(frozen=True)
+class Spot:
+    """A point that shines into a cone: full `intensity` [W/sr] up to the half-angle `inner`, none from `outer` on.
+
+    `position` and `direction` (3,); `range`: the distance at which it has faded to nothing, or None.
+    """
+
+    position: Vector
+    direction: Vector
+    intensity: Color
+    inner: float
+    outer: float
+    range: float | None = None
+
+    def fields(self) -> Fields:
+        """Its numbers by name."""
+        outer = within("outer", self.outer, 1e-6, math.pi)
+        fields = {
+            "position": vector("position", self.position),
+            "direction": direction("direction", self.direction),
+            "intensity": color("intensity", self.intensity),
+            "inner": [within("inner", self.inner, 0.0, outer)],
+            "outer": [outer],
+        }
+        return fields if self.range is None else fields | {"range": [length("range", self.range)]}
+
+
+@dataclass(frozen=True)
+class Directional:
+    """Parallel light from infinity: `irradiance` [W/m²] of a surface that faces `to_light` (3,)."""
+
+    to_light: Vector
+    irradiance: Color
+
+    def fields(self) -> Fields:
+        """Its numbers by name."""
+        return {
+            "to_light": direction("to_light", self.to_light),
+            "irradiance": color("irradiance", self.irradiance),
+        }
+
+
+@dataclass(frozen=True)
+class Sun:
+    """A disc at infinity about `to_light` (3,): `half_angle` (the sun of the earth: 0.00465), `radiance`."""
+
+    to_light: Vector
+    half_angle: float
+    radiance: Color
+
+    def fields(self) -> Fields:
+        """Its numbers by name."""
+        return {
+            "to_light": direction("to_light", self.to_light),
+            "half_angle": [within("half_angle", self.half_angle, 1e-9, math.pi / 2)],
+            "radiance": color("radiance", self.radiance),
+        }
+
+
+@dataclass(frozen=True)
+class Rectangle:
+    """corner + s·u + t·v, s and t in [0, 1]; `corner`, `u`, `v` (3,). Shines from the side of u × v."""
+
+    corner: Vector
+    u: Vector
+    v: Vector
+    radiance: Color = 1.0
+
+    def fields(self) -> Fields:
+        """Its numbers by name."""
+        return {
+            "corner": vector("corner", self.corner),
+            "u": direction("u", self.u),
+            "v": direction("v", self.v),
+            "radiance": color("radiance", self.radiance),
+        }
+
+
+@dataclass(frozen=True)
+class Disk:
+    """A disk about `center` (3,) with `radius`; shines from the side of `normal` (3,), of any length."""
+
+    center: Vector
+    normal: Vector
+    radius: float
+    radiance: Color = 1.0
+
+    def fields(self) -> Fields:
+        """Its numbers by name."""
+        return {
+            "center": vector("center", self.center),
+            "normal": direction("normal", self.normal),
+            "radius": [length("radius", self.radius)],
+            "radiance": color("radiance", self.radiance),
+        }
+
+
+@dataclass(frozen=True)
+class Triangle:
+    """A triangle `a`, `b`, `c` (3,) each; shines from the side of (b−a) × (c−a)."""
+
+    a: Vector
+    b: Vector
+    c: Vector
+    radiance: Color = 1.0
+
+    def fields(self) -> Fields:
+        """Its numbers by name."""
+        corners = {name: vector(name, getattr(self, name)) for name in "abc"}
+        return corners | {"radiance": color("radiance", self.radiance)}
+
+
+@dataclass(frozen=True)
+class Sphere:
+    """A sphere about `center` (3,) with `radius`; shines outwards."""
+
+    center: Vector
+    radius: float
+    radiance: Color = 1.0
+
+    def fields(self) -> Fields:
+        """Its numbers by name."""
+        return {
+            "center": vector("center", self.center),
+            "radius": [length("radius", self.radius)],
+            "radiance": color("radiance", self.radiance),
+        }
+
+
+@dataclass(frozen=True, eq=False)
+class Environment:
+    """Light from all around: a constant radiance (one number or three), a lat-long picture, or a file, times `scale`.
+
+    A picture is (H, W, 3) float of linear radiance, row 0 at the top (+y); a direction is
+    (sin φ sin θ, cos θ, −cos φ sin θ) with φ = 2πu, θ = πv. A file is the path of an EXR or HDR picture.
+    """
+
+    radiance: Color | ArrayLike | str | PathLike[str]
+    scale: float = 1.0
+
+    def fields(self) -> Fields:
+        """The constant radiance, where there is no picture."""
+        scale = within("scale", self.scale, 0.0, math.inf)
+        return {"radiance": [scale * c for c in color("radiance", cast("Color", self.radiance))]}
+
+
+Light = Point | Spot | Directional | Sun | Rectangle | Disk | Triangle | Sphere | Environment

@@ -1,0 +1,371 @@
+"""Scenes: read, built in, or made of arrays; what is asked of them. `Scene`, `load`, `builtin`, `builtins`."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Mapping
+from os import PathLike, fspath
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from antumbra import _core, settings
+from antumbra._arrays import indices, matching, numbers, per_row, places, rows
+from antumbra._values import Color, color
+from antumbra.errors import RenderStopped
+from antumbra.estimate import Estimate
+from antumbra.hit import Hit, Receivers
+from antumbra.image import Image
+from antumbra.lights import Environment, Light
+from antumbra.materials import Diffuse, Material
+from antumbra.shapes import Shape
+
+
+class Message(NamedTuple):
+    """A note or warning about a scene: its `level`, the `place` in the file (may be empty), and what it says."""
+
+    level: str
+    place: str
+    text: str
+
+
+class Progress(NamedTuple):
+    """How far a render is: `passes_done` of `passes`, and the `done` share of all work, 0 to 1."""
+
+    passes_done: int
+    passes: int
+    done: float
+
+
+def load(
+    path: str | PathLike[str],
+    *,
+    up_axis: str | None = None,
+    files_from: str | PathLike[str] | None = None,
+    definitions: Mapping[str, Any] | None = None,
+) -> Scene:
+    """Reads a scene: glTF/GLB, OBJ, PLY, STL, or a lat-long picture (HDR, EXR: a built-in scene under it).
+
+    `up_axis`: "y" or "z", the axis that points up in the file; `files_from`: the folder that the file's own paths
+    may reach (default: its own folder); `definitions`: values of the file's `$name`s.
+
+    Raises SceneError with .file, .place and .hint.
+
+    >>> import antumbra as am
+    >>> am.load("room.glb").render().save("room.exr")  # doctest: +SKIP
+    """
+    words = [(name, str(value)) for name, value in (definitions or {}).items()]
+    folder = None if files_from is None else fspath(files_from)
+    return Scene._of(_core.Scene.load(fspath(path), up_axis, folder, words))
+
+
+def builtin(name: str, **parameters: float) -> Scene:
+    """A scene that needs no file; `builtins()` lists them with their parameters.
+
+    Raises ValueError with the nearest right name.
+
+    >>> import antumbra as am
+    >>> am.builtin("pillars", light_size=0.5)  # doctest: +ELLIPSIS
+    <Scene pillars: ...>
+    """
+    words = [(key.replace("_", "-"), float(value)) for key, value in parameters.items()]
+    return Scene._of(_core.Scene.builtin(name, words))
+
+
+def builtins() -> dict[str, str]:
+    """The built-in scenes: name and what each shows."""
+    return {name: shows for name, shows, _ in _core.builtins()}
+
+
+class Scene:
+    """What there is to see. An empty one is filled by `add_mesh`, `add_shape` and `add_light`.
+
+    >>> import numpy as np, antumbra as am
+    >>> scene = am.Scene()
+    >>> corners = np.array([[-1.0, 0, -1], [1, 0, -1], [1, 0, 1], [-1, 0, 1]])
+    >>> scene.add_mesh(corners, [[0, 2, 1], [0, 3, 2]], material=am.materials.Diffuse(0.5))
+    >>> scene.add_light(am.lights.Point((0, 2, 0), intensity=4.0))
+    >>> bool(scene.occluded([[0, 1, 0]], [[0, -1, 0]])[0])
+    True
+    """
+
+    def __init__(self, name: str = "scene") -> None:
+        """An empty scene; `name` is what it is called in pictures."""
+        self._core = _core.Scene(name)
+
+    @classmethod
+    def _of(cls, core: _core.Scene) -> Scene:
+        scene = cls.__new__(cls)
+        scene._core = core
+        return scene
+
+    # ---- building ----
+
+    def add_mesh(
+        self,
+        vertices: ArrayLike,
+        faces: ArrayLike | None = None,
+        *,
+        material: Material | None = None,
+        emission: Color | None = None,
+        transform: ArrayLike | None = None,
+        normals: ArrayLike | None = None,
+        name: str = "",
+    ) -> None:
+        """Adds triangles.
+
+        `vertices` (V, 3) float in scene units; `faces` (F, 3) whole numbers, counter-clockwise from the front; or a
+        trimesh or Open3D mesh in place of both. `emission`: radiance L_e of the front, one number or three;
+        `transform` (4, 4): object to world; `normals` (V, 3): shading normals, flat without.
+
+        Raises ValueError or TypeError for another shape or kind of number, or an index out of range.
+        """
+        if faces is None:
+            vertices, faces = _mesh_of(vertices)
+        vertices = rows("vertices", vertices)
+        corners = indices("faces", faces, 3, len(vertices), "vertex")
+        if normals is not None:
+            normals = matching("normals", normals, "vertices", len(vertices))
+        matrix = None if transform is None else _matrix(transform)
+        look = self._material(material, emission)
+        self._core.add_mesh(name, vertices, corners, look, matrix, normals)
+
+    def add_shape(
+        self, shape: Shape, *, material: Material | None = None, emission: Color | None = None, name: str = ""
+    ) -> None:
+        """Adds a sphere, disk, cylinder or rectangle of `antumbra.shapes`, in world space."""
+        self._core.add_shape(name, type(shape).__name__, shape.fields(), self._material(material, emission))
+
+    def add_light(self, light: Light, *, name: str = "") -> None:
+        """Adds a light of `antumbra.lights`; `name` is what `light=` and `visible_fraction` call it."""
+        if isinstance(light, Environment) and isinstance(light.radiance, (str, PathLike)):
+            self._core.add_environment_file(name, fspath(light.radiance), light.scale)
+        elif isinstance(light, Environment) and np.ndim(light.radiance) == 3:
+            picture = _lat_long(light.radiance)
+            self._core.add_environment(name, picture, light.scale)
+        else:
+            self._core.add_light(name, type(light).__name__, light.fields())
+
+    def _material(self, material: Material | None, emission: Color | None) -> int:
+        look = Diffuse() if material is None else material
+        if not hasattr(look, "fields"):
+            raise TypeError(f"material is a {type(look).__name__}: one of antumbra.materials is needed")
+        radiance = None if emission is None else color("emission", emission)
+        return self._core.add_material(type(look).__name__, look.fields(), radiance)
+
+    # ---- pictures ----
+
+    def render(self, *, progress: Callable[[Progress], object] | None = None, **options: Any) -> Image:
+        """Renders a picture. The options are those of `antumbra render --help`, with `_` for `-`, angles in radians.
+
+        `progress` is called about 20 times a second with a `Progress`; if it returns False, the render stops and the
+        picture has the passes that were done. Other Python threads run meanwhile.
+
+        Raises ValueError for a wrong option with the nearest right one; RenderStopped (a KeyboardInterrupt) with
+        `.image` on Ctrl-C.
+
+        >>> import antumbra as am
+        >>> image = am.builtin("cornell-box").render(estimator="area", viewing_rays=4, size=(16, 12))
+        >>> image.pixels.shape
+        (12, 16, 3)
+        """
+        began = time.perf_counter()
+        watch = None if progress is None else lambda *state: progress(Progress(*state))
+        picture, interrupted = self._core.render(list(settings.words(options).items()), watch)
+        image = Image(picture, name=self.name, seconds=time.perf_counter() - began) if picture else None
+        if interrupted or image is None:
+            raise RenderStopped(image)
+        return image
+
+    def camera_rays(
+        self, size: tuple[int, int], *, camera: str | None = None
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """One viewing ray through the centre of each pixel: origins and unit directions, (H·W, 3) float64 each.
+
+        `size` = (width, height); row after row from the top: `x.reshape(height, width, 3)` is the picture.
+        """
+        width, height = size
+        return self._core.camera_rays(int(width), int(height), camera)
+
+    # ---- questions ----
+
+    def occluded(
+        self,
+        origins: ArrayLike | Receivers,
+        targets: ArrayLike | None = None,
+        *,
+        directions: ArrayLike | None = None,
+        max_distance: ArrayLike = np.inf,
+    ) -> NDArray[np.bool_]:
+        """Whether something blocks: exactly the open segment from each origin to its target, (N,) bool.
+
+        `origins` (N, 3) or receivers; `targets` (N, 3), or one (3,) for all. Or `directions` (N, 3) of any length with
+        `max_distance`, one number or (N,), in multiples of the direction's length. Origins are taken as they are: one
+        that lies in a surface is not blocked by it.
+
+        Raises ValueError for shapes that do not match and for numbers that are not finite.
+        """
+        if (targets is None) == (directions is None):
+            raise ValueError("one of targets and directions is needed")
+        start, count = self._start(origins)
+        if targets is not None:
+            return self._core.occluded(start, matching("targets", targets, "origins", count), None)
+        along = matching("directions", directions, "origins", count)
+        return self._core.occluded(start, along, per_row("max_distance", max_distance, count))
+
+    def closest_hit(
+        self, origins: ArrayLike | Receivers, directions: ArrayLike, max_distance: ArrayLike = np.inf
+    ) -> Hit:
+        """What each ray meets first.
+
+        `origins` (N, 3) or receivers, `directions` (N, 3) of any length, `max_distance` in multiples of it: one number
+        or (N,). `Hit.t` is inf for a miss; hits at the same distance: the first in the order of building.
+        """
+        start, count = self._start(origins)
+        along = matching("directions", directions, "origins", count)
+        return Hit(self._core.closest_hit(start, along, per_row("max_distance", max_distance, count)))
+
+    def irradiance(
+        self,
+        points: ArrayLike | Receivers,
+        normals: ArrayLike | None = None,
+        *,
+        shadow_rays: int = 64,
+        **options: Any,
+    ) -> Estimate:
+        """Irradiance E [W/m²] that arrives on the normal's side of each point, (N, 3): direct light.
+
+        `points` (N, 3) with unit `normals` (N, 3), or receivers. Further options as in `render` (`lights`,
+        `light_points`, `sampler`, `seed`, `threads`, …).
+        """
+        return self._estimate("irradiance", points, normals, {"shadow_rays": shadow_rays, **options})
+
+    def ambient_occlusion(
+        self,
+        points: ArrayLike | Receivers,
+        normals: ArrayLike | None = None,
+        *,
+        rays: int = 64,
+        radius: float | None = None,
+        falloff: str | None = None,
+        **options: Any,
+    ) -> Estimate:
+        """The open share (1/π)∫V cos θ dω of the hemisphere over each point, (N,): 1 = open.
+
+        `radius`: occluders beyond it do not count; `falloff`: their weight up to it ("none", "linear", "quadratic").
+        """
+        words = {"shadow_rays": rays, "radius": radius, "falloff": falloff, **options}
+        return self._estimate("ambient_occlusion", points, normals, words)
+
+    def visible_fraction(
+        self, points: ArrayLike | Receivers, light: str | int = 0, *, rays: int = 64, **options: Any
+    ) -> Estimate:
+        """Which part of one light each point sees, (N,): mean V over its area (flat) or solid angle (others).
+
+        `light`: its name, or its number in the order of building.
+        """
+        start, _ = self._start(points)
+        began = time.perf_counter()
+        words = settings.words({"shadow_rays": rays, **options})
+        values, errors = self._core.visible_fraction(start, str(light), list(words.items()))
+        return Estimate(values, errors, "visible fraction", rays, time.perf_counter() - began)
+
+    def _estimate(self, what: str, points: Any, normals: Any, options: dict[str, Any]) -> Estimate:
+        start, facing = places(points, normals)
+        words = settings.words(options)
+        began = time.perf_counter()
+        inside = start._core if isinstance(start, Receivers) else start
+        values, errors = getattr(self._core, what)(inside, facing, list(words.items()))
+        seconds = time.perf_counter() - began
+        return Estimate(values, errors, what.replace("_", " "), int(options["shadow_rays"]), seconds)
+
+    def _start(self, origins: Any) -> tuple[Any, int]:
+        if isinstance(origins, Receivers):
+            return origins._core, len(origins)
+        array = rows("origins", origins)
+        return array, len(array)
+
+    # ---- the pieces of an estimator ----
+
+    def sample_light(
+        self, points: ArrayLike | Receivers, normals: ArrayLike | None, u: ArrayLike, *, light: str | int = 0
+    ) -> LightSamples:
+        """Draws one point of a light for each receiver, from `u` (N, 2) in [0, 1).
+
+        Gives `direction` ω_i (N, 3), `distance` (N,), `radiance` L_e (N, 3) and `pdf` (N,) in solid angle at the
+        receiver [1/sr]; radiance 0 and pdf 1 where the light cannot reach. Light that arrives = f · radiance · cos θ /
+        pdf, if the segment is free. Point and directional lights have pdf 1 and their irradiance as radiance.
+        """
+        start, facing = places(points, normals)
+        inside = start._core if isinstance(start, Receivers) else start
+        square = matching("u", u, "points", len(start), columns=2)
+        return LightSamples(*self._core.sample_light(inside, facing, square, str(light)))
+
+    def brdf(self, hit: Hit | Receivers, wo: ArrayLike, wi: ArrayLike) -> NDArray[np.float32]:
+        """f_r(ω_o, ω_i) [1/sr] at each receiver, (N, 3) float32, without the cosine.
+
+        `wo`, `wi` (N, 3): unit vectors in world space, both away from the surface; 0 if they lie on different sides.
+        """
+        receivers = hit.receivers if isinstance(hit, Hit) else hit
+        if not isinstance(receivers, Receivers):
+            raise TypeError(f"hit is a {type(hit).__name__}: a Hit or its receivers are needed")
+        out = matching("wo", wo, "receivers", len(receivers))
+        return self._core.brdf(receivers._core, out, matching("wi", wi, "receivers", len(receivers)))
+
+    # ---- about the scene ----
+
+    @property
+    def name(self) -> str:
+        """What it is called."""
+        return self._core.name
+
+    @property
+    def messages(self) -> list[Message]:
+        """Notes and warnings of the reader and the builder."""
+        return [Message(*said) for said in self._core.messages()]
+
+    def info(self) -> dict[str, Any]:
+        """Counts, bounds, lights, cameras and memory: what `antumbra info --json` prints."""
+        return self._core.info()
+
+    def __repr__(self) -> str:
+        """`<Scene room.glb: 143,163 triangles, 5 lights, 1 camera>`."""
+        found = self._core.counts()
+        parts = [f"{n:,} {word}{'' if n == 1 else 's'}" for word, n in found]
+        return f"<Scene {self.name}: {', '.join(parts)}>"
+
+
+class LightSamples(NamedTuple):
+    """One drawn light point per receiver, as `Scene.sample_light` describes."""
+
+    direction: NDArray[np.float64]
+    distance: NDArray[np.float64]
+    radiance: NDArray[np.float32]
+    pdf: NDArray[np.float32]
+
+
+def _mesh_of(mesh: Any) -> tuple[Any, Any]:
+    """Vertices and faces of a trimesh or Open3D mesh."""
+    for faces in ("faces", "triangles"):
+        if hasattr(mesh, "vertices") and hasattr(mesh, faces):
+            return np.asarray(mesh.vertices), np.asarray(getattr(mesh, faces))
+    raise TypeError(
+        "faces are missing: give (F, 3) whole numbers, or a mesh with .vertices and .faces or .triangles"
+    )
+
+
+def _matrix(transform: ArrayLike) -> NDArray[np.float64]:
+    matrix = np.ascontiguousarray(numbers("transform", transform), np.float64)
+    if matrix.shape != (4, 4):
+        raise ValueError(f"transform has shape {matrix.shape}: (4, 4) is needed")
+    if not np.array_equal(matrix[3], [0, 0, 0, 1]):
+        raise ValueError(f"transform has the last row {matrix[3]}: (0, 0, 0, 1) is needed")
+    return matrix
+
+
+def _lat_long(picture: Any) -> NDArray[np.float32]:
+    array = np.ascontiguousarray(numbers("radiance", picture), np.float32)
+    if array.shape[2] != 3 or 0 in array.shape:
+        raise ValueError(f"radiance has shape {array.shape}: (H, W, 3) is needed")
+    return array
