@@ -1,10 +1,32 @@
 //! The Python binding: arrays in, arrays out, the lock released, errors translated; no algorithm. Floor 10.
 
+mod arrays;
+mod ask;
+mod errors;
+mod info;
+mod kinds;
+mod picture;
+mod query;
+mod receivers;
+mod render;
+mod scene;
+mod settings;
+
 use pyo3::prelude::*;
 
 /// What `import antumbra._core` gives.
 #[pymodule(gil_used = false)]
-fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
-    module.add("__version__", env!("CARGO_PKG_VERSION"))?;
-    Ok(())
+mod _core {
+    #[pymodule_export]
+    use super::picture::{Picture, check_writable, read_picture, write_picture};
+    #[pymodule_export]
+    use super::receivers::{Hits, Receivers};
+    #[pymodule_export]
+    use super::scene::PyScene;
+    #[pymodule_export]
+    use super::settings::{builtins, check_settings, nearest, table};
+
+    /// The version of antumbra.
+    #[pymodule_export]
+    const __version__: &str = env!("CARGO_PKG_VERSION");
 }

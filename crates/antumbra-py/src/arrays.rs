@@ -1,0 +1,93 @@
+//! Arrays of Python read as they lie: float32 or float64, any stride, a chunk of rows at a time.
+
+use numpy::ndarray::{ArrayView1, ArrayView2};
+use numpy::{PyReadonlyArray1, PyReadonlyArray2};
+use pyo3::prelude::*;
+
+use crate::errors;
+
+/// Rows of a query that are gathered at once: enough for every thread, little memory.
+pub const CHUNK: usize = 1 << 17;
+
+/// An (N, K) array of either precision.
+#[derive(FromPyObject)]
+pub enum Rows<'py> {
+    /// float32.
+    Single(PyReadonlyArray2<'py, f32>),
+    /// float64.
+    Double(PyReadonlyArray2<'py, f64>),
+}
+
+/// The same, usable without Python's lock.
+#[derive(Clone, Copy)]
+pub enum View<'a> {
+    /// float32.
+    Single(ArrayView2<'a, f32>),
+    /// float64.
+    Double(ArrayView2<'a, f64>),
+}
+
+impl Rows<'_> {
+    /// A view of the array.
+    pub fn view(&self) -> View<'_> {
+        match self {
+            Rows::Single(array) => View::Single(array.as_array()),
+            Rows::Double(array) => View::Double(array.as_array()),
+        }
+    }
+}
+
+impl View<'_> {
+    /// Number of rows.
+    pub fn len(&self) -> usize {
+        match self {
+            View::Single(array) => array.nrows(),
+            View::Double(array) => array.nrows(),
+        }
+    }
+
+    /// Row `i`; the caller has checked that there are `K` columns.
+    pub fn row<const K: usize>(&self, i: usize) -> [f64; K] {
+        match self {
+            View::Single(array) => std::array::from_fn(|k| f64::from(array[[i, k]])),
+            View::Double(array) => std::array::from_fn(|k| array[[i, k]]),
+        }
+    }
+
+    /// Row `i` if all of it is finite; else an error that names it.
+    pub fn finite<const K: usize>(&self, name: &str, i: usize) -> Result<[f64; K], String> {
+        let row = self.row(i);
+        if row.iter().all(|c| c.is_finite()) {
+            Ok(row)
+        } else {
+            Err(format!("{name}[{i}] is {row:?}: finite numbers are needed"))
+        }
+    }
+}
+
+/// A column of numbers.
+pub fn column<'a>(array: &'a PyReadonlyArray1<'_, f64>) -> ArrayView1<'a, f64> {
+    array.as_array()
+}
+
+/// Has `K` columns, or an error that says what is needed (the Python side has checked it before).
+pub fn columns(name: &str, view: &View<'_>, k: usize) -> PyResult<()> {
+    let found = match view {
+        View::Single(array) => array.ncols(),
+        View::Double(array) => array.ncols(),
+    };
+    if found == k { Ok(()) } else { Err(errors::value(format!("{name} has {found} columns: {k} are needed"))) }
+}
+
+/// Runs `work` on chunks of `0..n`, asking Python between them whether Ctrl-C was pressed; the lock is free meanwhile.
+pub fn in_chunks(py: Python<'_>, n: usize, mut work: impl FnMut(std::ops::Range<usize>) -> Result<(), String> + Send)
+-> PyResult<()> {
+    let mut from = 0;
+    while from < n {
+        let range = from..n.min(from + CHUNK);
+        from = range.end;
+        py.detach(|| work(range)).map_err(errors::value)?;
+        py.check_signals()?;
+    }
+    Ok(())
+}

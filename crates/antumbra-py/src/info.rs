@@ -1,0 +1,141 @@
+//! What is in a scene: counts for one line, and everything for `antumbra info`.
+
+use std::collections::HashSet;
+
+use antumbra::light::Light;
+use antumbra::scene::{Alpha, Body, Camera, Emits, Projection, Scene};
+use antumbra::texture::Texels;
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyList};
+
+use crate::scene::PyScene;
+
+/// A light as people count it: all triangles of an emissive object are one.
+struct Counted {
+    name: String,
+    kind: &'static str,
+    power: f32,
+}
+
+#[pymethods]
+impl PyScene {
+    /// What there is, for one line: (word, number), only what there is.
+    fn counts(&self, py: Python<'_>) -> PyResult<Vec<(String, u64)>> {
+        let scene = self.scene(py)?;
+        let mut all = vec![("triangle".to_string(), scene.triangle_count()), ("shape".into(), shapes(&scene))];
+        for light in lights(&scene) {
+            let word = if light.kind == "environment" { light.kind.into() } else { format!("{} light", light.kind) };
+            match all.iter_mut().find(|(known, _)| *known == word) {
+                Some((_, n)) => *n += 1,
+                None => all.push((word, 1)),
+            }
+        }
+        all.retain(|(_, n)| *n > 0);
+        Ok(all)
+    }
+
+    /// Counts, bounds, lights, cameras, memory: stable keys, SI units.
+    fn info<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let scene = self.scene(py)?;
+        let out = PyDict::new(py);
+        out.set_item("source", if scene.source.is_empty() { "built in" } else { &scene.source })?;
+        out.set_item("triangles", scene.triangle_count())?;
+        out.set_item("shapes", shapes(&scene))?;
+        out.set_item("meshes", meshes(&scene))?;
+        out.set_item("objects", scene.objects.len())?;
+        out.set_item("instances", scene.objects.iter().filter(|o| o.transform.is_some()).count())?;
+        out.set_item("bounds", scene.bounds().map(|b| b.map(|c| c.to_array())))?;
+        out.set_item("tree_bytes", scene.world().stats().bytes)?;
+        let listed = lights(&scene).into_iter().map(|l| light_dict(py, &l)).collect::<PyResult<Vec<_>>>()?;
+        out.set_item("lights", PyList::new(py, listed)?)?;
+        let cameras = scene.cameras.iter().map(|c| camera_dict(py, c)).collect::<PyResult<Vec<_>>>()?;
+        out.set_item("cameras", PyList::new(py, cameras)?)?;
+        out.set_item("materials", scene.materials.len())?;
+        let masked = scene.materials.iter().filter(|m| m.alpha != Alpha::Opaque).count();
+        out.set_item("masked_materials", masked)?;
+        out.set_item("textures", scene.textures.len())?;
+        out.set_item("texture_bytes", texture_bytes(&scene))?;
+        Ok(out)
+    }
+}
+
+fn shapes(scene: &Scene) -> u64 {
+    scene.objects.iter().filter(|o| matches!(o.body, Body::Shape(_))).count() as u64
+}
+
+fn meshes(scene: &Scene) -> usize {
+    let of = |o: &antumbra::scene::Placed| match o.body {
+        Body::Mesh(m) => Some(m),
+        Body::Shape(_) => None,
+    };
+    scene.objects.iter().filter_map(of).collect::<HashSet<_>>().len()
+}
+
+/// Pictures that several textures share count once.
+fn texture_bytes(scene: &Scene) -> u64 {
+    let mut seen = HashSet::new();
+    let fresh = scene.textures.iter().filter(|t| seen.insert(std::sync::Arc::as_ptr(&t.image)));
+    let size = |texels: &Texels| match texels {
+        Texels::Srgb8(t) | Texels::Linear8(t) => 4 * t.len() as u64,
+        Texels::Float(t) => 12 * t.len() as u64,
+    };
+    fresh.map(|t| size(&t.image.texels)).sum()
+}
+
+fn kind(light: &Light) -> &'static str {
+    match light {
+        Light::Point(_) => "point",
+        Light::Spot(_) => "spot",
+        Light::Directional(_) => "directional",
+        Light::Sun(_) => "sun",
+        Light::Environment(_) => "environment",
+        Light::Triangle(_) | Light::Rectangle(_) | Light::Disk(_) | Light::Sphere(_) => "area",
+    }
+}
+
+fn lights(scene: &Scene) -> Vec<Counted> {
+    let names = scene.light_names();
+    let parts: HashSet<usize> = scene.objects.iter().flat_map(|o| emitted(scene, o)).collect();
+    let one = |(id, light): (usize, &Light), power: f32| {
+        let name = names.slots.iter().position(|slot| *slot as usize == id).map(|i| names.names[i].clone());
+        Counted { name: name.unwrap_or_default(), kind: kind(light), power }
+    };
+    let of = |id: &usize| scene.lights().get(*id).map_or(0.0, |l| l.power(scene.radius()));
+    let single = scene.lights().iter().enumerate().filter(|(id, _)| !parts.contains(id));
+    let mut all: Vec<Counted> = single.map(|(id, l)| one((id, l), of(&id))).collect();
+    for object in scene.objects.iter() {
+        let ids = emitted(scene, object);
+        if !ids.is_empty() {
+            all.push(Counted { name: object.name.clone(), kind: "area", power: ids.iter().map(of).sum() });
+        }
+    }
+    all
+}
+
+/// The lights that the triangles of an object are, one each.
+fn emitted(scene: &Scene, object: &antumbra::scene::Placed) -> Vec<usize> {
+    let (Emits::Each(_), Body::Mesh(mesh)) = (object.emits, &object.body) else { return Vec::new() };
+    let n = scene.meshes[*mesh as usize].triangles.indices.len() as u32;
+    (0..n).filter_map(|local| scene.light_of(object, local).map(|id| id as usize)).collect()
+}
+
+fn light_dict<'py>(py: Python<'py>, light: &Counted) -> PyResult<Bound<'py, PyDict>> {
+    let out = PyDict::new(py);
+    out.set_item("name", &light.name)?;
+    out.set_item("kind", light.kind)?;
+    out.set_item("power", light.power)?;
+    Ok(out)
+}
+
+fn camera_dict<'py>(py: Python<'py>, camera: &Camera) -> PyResult<Bound<'py, PyDict>> {
+    let out = PyDict::new(py);
+    let fov = match camera.projection {
+        Projection::Perspective { vertical_fov } => Some(vertical_fov),
+        Projection::Orthographic { .. } => None,
+    };
+    out.set_item("name", &camera.name)?;
+    out.set_item("vertical_fov", fov)?;
+    out.set_item("eye", camera.eye.to_array())?;
+    out.set_item("look_at", camera.look_at.to_array())?;
+    Ok(out)
+}

@@ -1,0 +1,120 @@
+//! Materials, shapes and lights from the word for their kind and their numbers by name.
+
+use std::collections::HashMap;
+
+use antumbra::light::{Directional, Disk, Environment, Light, Point, Rectangle, Sphere, Spot, Sun, Triangle};
+use antumbra::math::{Rgb, Vec3};
+use antumbra::scene::{Body, Emission, Material};
+use antumbra::trace::{Shape, Triangles};
+use pyo3::prelude::*;
+
+use crate::errors;
+
+/// Numbers by name, as the dataclasses of Python give them.
+pub struct Fields(pub HashMap<String, Vec<f64>>);
+
+impl Fields {
+    fn numbers(&self, name: &str, n: usize) -> PyResult<&[f64]> {
+        match self.0.get(name) {
+            Some(v) if v.len() == n => Ok(v),
+            _ => Err(errors::value(format!("{name}: {n} numbers are needed"))),
+        }
+    }
+
+    fn number(&self, name: &str) -> PyResult<f32> {
+        Ok(self.numbers(name, 1)?[0] as f32)
+    }
+
+    fn vector(&self, name: &str) -> PyResult<[f32; 3]> {
+        let v = self.numbers(name, 3)?;
+        Ok([v[0] as f32, v[1] as f32, v[2] as f32])
+    }
+
+    fn vec3(&self, name: &str) -> PyResult<Vec3> {
+        Ok(Vec3::from(self.vector(name)?))
+    }
+
+    fn rgb(&self, name: &str) -> PyResult<Rgb> {
+        Ok(Rgb(self.vector(name)?))
+    }
+}
+
+fn unknown<T>(what: &str, kind: &str) -> PyResult<T> {
+    Err(errors::value(format!("there is no {what} \"{kind}\"")))
+}
+
+/// A material of `antumbra.materials`; `emission` is the radiance of its front.
+pub fn material(kind: &str, fields: &Fields, emission: Option<[f32; 3]>) -> PyResult<Material> {
+    let material = match kind {
+        "Diffuse" => Material::diffuse(fields.rgb("albedo")?),
+        "Mirror" => Material::mirror(fields.rgb("reflectance")?),
+        "MetallicRoughness" => Material::metallic_roughness(
+            fields.rgb("base")?,
+            fields.number("metallic")?,
+            fields.number("roughness")?,
+        ),
+        _ => return unknown("material", kind),
+    };
+    let emission = emission.map(|radiance| Emission { radiance: Rgb(radiance), both_sides: false });
+    Ok(Material { emission, ..material })
+}
+
+/// What a shape of `antumbra.shapes` is made of: a shape of the tree, or two triangles.
+pub enum Made {
+    /// A shape of the tree.
+    Shape(Shape),
+    /// Triangles.
+    Mesh(Triangles),
+}
+
+/// A shape of `antumbra.shapes`.
+pub fn shape(kind: &str, fields: &Fields) -> PyResult<Made> {
+    Ok(Made::Shape(match kind {
+        "Sphere" => Shape::Sphere { center: fields.vector("center")?, radius: fields.number("radius")? },
+        "Disk" => Shape::Disk {
+            center: fields.vector("center")?,
+            normal: fields.vector("normal")?,
+            radius: fields.number("radius")?,
+        },
+        "Cylinder" => Shape::Cylinder {
+            p: fields.vector("p0")?,
+            q: fields.vector("p1")?,
+            radius: fields.number("radius")?,
+        },
+        "Rectangle" => return rectangle(fields).map(Made::Mesh),
+        _ => return unknown("shape", kind),
+    }))
+}
+
+fn rectangle(fields: &Fields) -> PyResult<Triangles> {
+    let (corner, u, v) = (fields.vec3("corner")?, fields.vec3("u")?, fields.vec3("v")?);
+    let corners = [corner, corner + u, corner + u + v, corner + v];
+    Ok(Triangles { vertices: corners.map(Into::into).to_vec(), indices: vec![[0, 1, 2], [0, 2, 3]] })
+}
+
+/// A light of `antumbra.lights`.
+pub fn light(kind: &str, fields: &Fields) -> PyResult<Light> {
+    let radiance = || fields.rgb("radiance");
+    Ok(match kind {
+        "Point" => Point { position: fields.vec3("position")?, intensity: fields.rgb("intensity")? }.into(),
+        "Spot" => {
+            let range = fields.0.contains_key("range").then(|| fields.number("range")).transpose()?;
+            let (position, direction) = (fields.vec3("position")?, fields.vec3("direction")?);
+            let (inner, outer) = (fields.number("inner")?, fields.number("outer")?);
+            Spot::new(position, direction, fields.rgb("intensity")?, inner, outer, range).into()
+        }
+        "Directional" => Directional::new(fields.vec3("to_light")?, fields.rgb("irradiance")?).into(),
+        "Sun" => Sun::new(fields.vec3("to_light")?, fields.number("half_angle")?, radiance()?).into(),
+        "Rectangle" => {
+            Rectangle::new(fields.vec3("corner")?, fields.vec3("u")?, fields.vec3("v")?, radiance()?).into()
+        }
+        "Disk" => {
+            let (center, normal) = (fields.vec3("center")?, fields.vec3("normal")?);
+            Disk::new(center, normal, fields.number("radius")?, radiance()?).into()
+        }
+        "Triangle" => Triangle::new(fields.vec3("a")?, fields.vec3("b")?, fields.vec3("c")?, radiance()?).into(),
+        "Sphere" => Sphere::new(fields.vec3("center")?, fields.number("radius")?, radiance()?).into(),
+        "Environment" => Environment::constant(radiance()?).into(),
+        _ => return unknown("light", kind),
+    })
+}

@@ -1,0 +1,280 @@
+//! Queries of a scene: arrays of points or rays in, arrays of answers out.
+
+use std::sync::Arc;
+
+use antumbra::light::LightId;
+use antumbra::query::{self, Estimated};
+use antumbra::render;
+use antumbra::scene::Scene;
+use antumbra::schedule::{Flow, Progress};
+use antumbra::sensor::Query;
+use antumbra::settings::Settings;
+use antumbra::trace::{Bits, Hits as TraceHits, Visibility};
+use numpy::ndarray::{Array1, Array2};
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray1};
+use pyo3::prelude::*;
+
+use crate::arrays::{Rows, columns};
+use crate::ask::{Batch, Origins, Starts, queries};
+use crate::receivers::{Hits, Ray, Receivers};
+use crate::scene::PyScene;
+use crate::{errors, settings};
+
+type Words = Vec<(String, String)>;
+type Table<'py> = Bound<'py, PyArray2<f32>>;
+type Column<'py> = Bound<'py, PyArray1<f32>>;
+
+#[pymethods]
+impl PyScene {
+    /// (N,) bool: the open segment to each end is blocked, or the ray along it up to `reach`.
+    #[pyo3(signature = (origins, ends, reach = None))]
+    fn occluded<'py>(
+        &self,
+        py: Python<'py>,
+        origins: Origins<'_>,
+        ends: Rows<'_>,
+        reach: Option<PyReadonlyArray1<'_, f64>>,
+    ) -> PyResult<Bound<'py, PyArray1<bool>>> {
+        let scene = self.scene(py)?;
+        let batch = batch(&scene, &origins, &ends, reach.as_ref())?;
+        let visibility = scene.visibility(false);
+        let mut out = vec![false; batch.starts.len()];
+        batch.answer(py, &mut out, |segments, entries, _, out| {
+            let mut blocked = Bits::default();
+            visibility.occluded(segments.as_segments(), &mut blocked);
+            for (i, entry) in entries.iter().enumerate() {
+                out[*entry as usize] = blocked.get(i);
+            }
+        })?;
+        Ok(out.into_pyarray(py))
+    }
+
+    /// What each ray meets first.
+    fn closest_hit(
+        &self,
+        py: Python<'_>,
+        origins: Origins<'_>,
+        directions: Rows<'_>,
+        reach: PyReadonlyArray1<'_, f64>,
+    ) -> PyResult<Hits> {
+        let scene = self.scene(py)?;
+        let batch = batch(&scene, &origins, &directions, Some(&reach))?;
+        let visibility = scene.visibility(false);
+        let mut out = vec![Ray::MISS; batch.starts.len()];
+        batch.answer(py, &mut out, |rays, entries, _, out| {
+            let (rays, mut hits) = (rays.as_segments(), TraceHits::default());
+            visibility.nearest(rays, &mut hits);
+            for (i, entry) in entries.iter().enumerate() {
+                let (o, d) = (rays.origin_at(i), rays.end_at(i));
+                out[*entry as usize] = Ray { o, d, t: hits.t[i], prim: hits.prim[i], uv: hits.uv[i] };
+            }
+        })?;
+        drop(visibility);
+        Ok(Hits::new(scene, out))
+    }
+
+    /// Irradiance and its standard error, (N, 3) float32 each.
+    fn irradiance<'py>(
+        &self,
+        py: Python<'py>,
+        points: Origins<'_>,
+        normals: Option<Rows<'_>>,
+        words: Words,
+    ) -> PyResult<(Table<'py>, Table<'py>)> {
+        let estimated = self.estimate(py, &points, normals.as_ref(), &words, [0.0; 3], query::irradiance)?;
+        Ok((table(py, &estimated.values)?, table(py, &estimated.standard_error)?))
+    }
+
+    /// Openness and its standard error, (N,) float32 each.
+    fn ambient_occlusion<'py>(
+        &self,
+        py: Python<'py>,
+        points: Origins<'_>,
+        normals: Option<Rows<'_>>,
+        words: Words,
+    ) -> PyResult<(Column<'py>, Column<'py>)> {
+        let estimated = self.estimate(py, &points, normals.as_ref(), &words, [1.0; 3], query::ambient_occlusion)?;
+        Ok((first(py, &estimated.values), first(py, &estimated.standard_error)))
+    }
+
+    /// Mean visibility of one light and its standard error, (N,) float32 each.
+    fn visible_fraction<'py>(
+        &self,
+        py: Python<'py>,
+        points: Origins<'_>,
+        normals: Option<Rows<'_>>,
+        light: &str,
+        words: Words,
+    ) -> PyResult<(Column<'py>, Column<'py>)> {
+        let number = light_number(&*self.scene(py)?, light)?;
+        let ask = |scene: &Scene, queries: &[Query], settings: &Settings, watch: &mut dyn FnMut(Progress) -> Flow| {
+            query::visible_fraction(scene, queries, number, settings, watch)
+        };
+        let estimated = self.estimate(py, &points, normals.as_ref(), &words, [0.0; 3], ask)?;
+        Ok((first(py, &estimated.values), first(py, &estimated.standard_error)))
+    }
+
+    /// direction, target, distance, radiance, pdf, light: one drawn light point a receiver.
+    #[expect(clippy::type_complexity, reason = "a tuple of six arrays, named on the Python side")]
+    fn sample_light<'py>(
+        &self,
+        py: Python<'py>,
+        points: Origins<'_>,
+        normals: Option<Rows<'_>>,
+        u: Rows<'_>,
+        words: Words,
+    ) -> PyResult<(Table<'py>, Table<'py>, Column<'py>, Table<'py>, Column<'py>, Bound<'py, PyArray1<u32>>)> {
+        let scene = self.scene(py)?;
+        let settings = settings::parse(&words)?;
+        let (queries, rows) = gather(&scene, &points, normals.as_ref())?;
+        let (n, u) = (points.view(&scene)?.len(), u.view());
+        let numbers: Result<Vec<[f32; 3]>, String> = rows.iter().map(|i| unit(u.finite::<3>("u", *i)?, *i)).collect();
+        let numbers = numbers.map_err(errors::value)?;
+        let drawn = py.detach(|| query::sample_light(&scene, &queries, &numbers, &settings));
+        Ok((
+            table(py, &spread(&drawn.direction, &rows, n, [0.0; 3]))?,
+            table(py, &spread(&drawn.target, &rows, n, [0.0; 3]))?,
+            spread(&drawn.distance, &rows, n, 0.0).into_pyarray(py),
+            table(py, &spread(&drawn.radiance, &rows, n, [0.0; 3]))?,
+            spread(&drawn.pdf, &rows, n, 1.0).into_pyarray(py),
+            spread(&drawn.light, &rows, n, 0).into_pyarray(py),
+        ))
+    }
+
+    /// f_r at each receiver, (N, 3) float32.
+    fn brdf<'py>(
+        &self,
+        py: Python<'py>,
+        receivers: PyRef<'_, Receivers>,
+        wo: Rows<'_>,
+        wi: Rows<'_>,
+    ) -> PyResult<Table<'py>> {
+        let (wo, wi) = (wo.view(), wi.view());
+        columns("wo", &wo, 3)?;
+        columns("wi", &wi, 3)?;
+        let receivers: &Receivers = &receivers;
+        let value = |i: usize| -> Result<[f32; 3], String> {
+            let (wo, wi) = (wo.finite::<3>("wo", i)?, wi.finite::<3>("wi", i)?);
+            let Some(met) = receivers.met(i) else { return Ok([0.0; 3]) };
+            let at = met.receiver;
+            let [wo, wi] = [wo, wi].map(|w| antumbra::math::Vec3::from(w.map(|c| c as f32)));
+            let seen = at.sees_side(wo) && at.sees_side(wi);
+            Ok(if seen { at.bsdf.eval(at.to_local(wo), at.to_local(wi)).0 } else { [0.0; 3] })
+        };
+        let values: Result<Vec<_>, String> = py.detach(|| (0..receivers.len()).map(value).collect());
+        table(py, &values.map_err(errors::value)?)
+    }
+
+    /// Origins and unit directions of one viewing ray through each pixel's centre, (H·W, 3) float64 each.
+    fn camera_rays<'py>(
+        &self,
+        py: Python<'py>,
+        words: Words,
+    ) -> PyResult<(Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<f64>>)> {
+        let scene = self.scene(py)?;
+        let rays = render::camera_rays(&*scene, &settings::parse(&words)?).map_err(|e| errors::scene(&e, ""))?;
+        let doubles = |rows: &[[f32; 3]]| rows.iter().flatten().map(|c| f64::from(*c)).collect::<Vec<f64>>();
+        let array = |rows: &[[f32; 3]]| {
+            let made = Array2::from_shape_vec((rows.len(), 3), doubles(rows));
+            made.map(|a| a.into_pyarray(py)).map_err(|e| errors::value(e.to_string()))
+        };
+        Ok((array(&rays.0)?, array(&rays.1)?))
+    }
+}
+
+impl PyScene {
+    /// Estimates at every row; rows that met nothing get `elsewhere`, surely. Ctrl-C raises KeyboardInterrupt.
+    fn estimate(
+        &self,
+        py: Python<'_>,
+        points: &Origins<'_>,
+        normals: Option<&Rows<'_>>,
+        words: &[(String, String)],
+        elsewhere: [f32; 3],
+        ask: impl Fn(&Scene, &[Query], &Settings, &mut dyn FnMut(Progress) -> Flow) -> Estimated + Send,
+    ) -> PyResult<Estimated> {
+        let scene = self.scene(py)?;
+        let settings = settings::parse(words)?;
+        let (queries, rows) = gather(&scene, points, normals)?;
+        let n = points.view(&scene)?.len();
+        let mut interrupted = None;
+        let estimated = py.detach(|| {
+            ask(&scene, &queries, &settings, &mut |_| match Python::attach(|py| py.check_signals()) {
+                Ok(()) => Flow::Continue,
+                Err(e) => {
+                    interrupted = Some(e);
+                    Flow::Stop
+                }
+            })
+        });
+        match interrupted {
+            Some(e) => Err(e),
+            None => Ok(Estimated {
+                values: spread(&estimated.values, &rows, n, elsewhere),
+                standard_error: spread(&estimated.standard_error, &rows, n, [0.0; 3]),
+                rays_done: estimated.rays_done,
+            }),
+        }
+    }
+}
+
+fn batch<'a>(
+    scene: &Arc<Scene>,
+    origins: &'a Origins<'_>,
+    ends: &'a Rows<'_>,
+    reach: Option<&'a PyReadonlyArray1<'_, f64>>,
+) -> PyResult<Batch<'a>> {
+    let (starts, ends) = (origins.view(scene)?, ends.view());
+    columns("ends", &ends, 3)?;
+    if let Starts::Points(points) = starts {
+        columns("origins", &points, 3)?;
+    }
+    let name = if reach.is_some() { "directions" } else { "targets" };
+    Ok(Batch { starts, name, ends, reach: reach.map(|r| r.as_array()) })
+}
+
+fn gather(scene: &Arc<Scene>, points: &Origins<'_>, normals: Option<&Rows<'_>>) -> PyResult<(Vec<Query>, Vec<usize>)> {
+    queries(points.view(scene)?, normals.map(Rows::view)).map_err(errors::value)
+}
+
+/// Values at their rows, `elsewhere` at all others.
+fn spread<T: Copy>(values: &[T], rows: &[usize], n: usize, elsewhere: T) -> Vec<T> {
+    let mut out = vec![elsewhere; n];
+    for (value, row) in values.iter().zip(rows) {
+        out[*row] = *value;
+    }
+    out
+}
+
+fn unit(u: [f64; 3], i: usize) -> Result<[f32; 3], String> {
+    // The largest single below 1: a double just under 1 must not round up to it.
+    const BELOW_ONE: f32 = 1.0 - f32::EPSILON / 2.0;
+    if u.iter().all(|x| (0.0..1.0).contains(x)) {
+        Ok(u.map(|x| (x as f32).min(BELOW_ONE)))
+    } else {
+        Err(format!("u[{i}] is {u:?}: numbers from 0 up to, not including, 1 are needed"))
+    }
+}
+
+/// The light of this name or number, among those that shine.
+fn light_number(scene: &Scene, light: &str) -> PyResult<LightId> {
+    let names = scene.light_names();
+    let by_name = names.names.iter().position(|name| name == light && !name.is_empty());
+    let number = by_name.or_else(|| light.parse().ok()).filter(|n| *n < names.slots.len());
+    number.map(|n| names.slots[n]).filter(|slot| *slot != u32::MAX).ok_or_else(|| {
+        let mut known: Vec<&str> = names.names.iter().map(String::as_str).filter(|n| !n.is_empty()).collect();
+        known.dedup();
+        known.truncate(20);
+        let listed = if known.is_empty() { String::new() } else { format!(": {}", known.join(", ")) };
+        errors::choice(format!("there is no light \"{light}\" among the {} of the scene{listed}", names.slots.len()))
+    })
+}
+
+fn table<'py>(py: Python<'py>, values: &[[f32; 3]]) -> PyResult<Table<'py>> {
+    let array = Array2::from_shape_vec((values.len(), 3), values.as_flattened().to_vec());
+    Ok(array.map_err(|e| errors::value(e.to_string()))?.into_pyarray(py))
+}
+
+fn first<'py>(py: Python<'py>, values: &[[f32; 3]]) -> Column<'py> {
+    values.iter().map(|v| v[0]).collect::<Array1<f32>>().into_pyarray(py)
+}

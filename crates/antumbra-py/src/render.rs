@@ -1,0 +1,82 @@
+//! Rendering: Ctrl-C and the caller's own callback are looked at about twenty times a second, the lock is free between.
+
+use antumbra::light::Light;
+use antumbra::render;
+use antumbra::scene::builtin;
+use antumbra::schedule::{Flow, Progress};
+use antumbra::settings::Settings;
+use pyo3::prelude::*;
+
+use crate::picture::Picture;
+use crate::scene::{PyScene, environment_file};
+use crate::{errors, settings};
+
+/// What the watcher of a render found out.
+#[derive(Default)]
+struct Watched {
+    interrupted: bool,
+    raised: Option<PyErr>,
+}
+
+#[pymethods]
+impl PyScene {
+    /// Renders: the picture (None if no pass was done), and whether Ctrl-C ended it. `watch(passes_done, passes, share)`
+    /// is called about twenty times a second; `False` ends the render.
+    #[pyo3(signature = (words, watch = None))]
+    fn render(
+        &self,
+        py: Python<'_>,
+        words: Vec<(String, String)>,
+        watch: Option<Py<PyAny>>,
+    ) -> PyResult<(Option<Picture>, bool)> {
+        let settings = settings::parse(&words)?;
+        let environment = environment(py, &settings)?;
+        let scene = self.scene(py)?;
+        let mut watched = Watched::default();
+        let rendered = py.detach(|| {
+            render::render(&scene, &settings, environment, &mut |progress| {
+                Python::attach(|py| look(py, watch.as_ref(), progress, &mut watched))
+            })
+        });
+        if let Some(error) = watched.raised {
+            return Err(error);
+        }
+        let rendered = rendered.map_err(|e| errors::scene(&e, self.file()))?;
+        let some = rendered.passes_done > 0;
+        Ok((some.then(|| Picture::new(rendered, &settings)), watched.interrupted))
+    }
+
+    /// Width and height of the picture that these settings ask for.
+    fn picture_size(&self, py: Python<'_>, words: Vec<(String, String)>) -> PyResult<[u32; 2]> {
+        let settings = settings::parse(&words)?;
+        render::picture_size(&*self.scene(py)?, &settings).map_err(|e| errors::scene(&e, self.file()))
+    }
+}
+
+/// One look: Ctrl-C first, then the caller's callback.
+fn look(py: Python<'_>, watch: Option<&Py<PyAny>>, progress: Progress, watched: &mut Watched) -> Flow {
+    if py.check_signals().is_err() {
+        watched.interrupted = true;
+        return Flow::Stop;
+    }
+    let Some(watch) = watch else { return Flow::Continue };
+    let share = progress.done as f64 / progress.total.max(1) as f64;
+    match watch.call1(py, (progress.passes_done, progress.passes, share)) {
+        Ok(answer) if answer.bind(py).is(pyo3::types::PyBool::new(py, false).as_any()) => Flow::Stop,
+        Ok(_) => Flow::Continue,
+        Err(error) => {
+            watched.raised = Some(error);
+            Flow::Stop
+        }
+    }
+}
+
+/// The light from all around that the settings ask for; `None` = the scene's own.
+fn environment(py: Python<'_>, settings: &Settings) -> PyResult<Option<Option<Light>>> {
+    Ok(match settings.environment.as_deref() {
+        None => None,
+        Some("none") => Some(None),
+        Some("sky") => Some(Some(builtin::default_sky())),
+        Some(path) => Some(Some(environment_file(py, path)?.0.into())),
+    })
+}

@@ -1,0 +1,255 @@
+//! A scene as Python holds it: a builder until it is first looked at, then the finished scene.
+
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, PoisonError};
+
+use antumbra::light::{Environment, Light};
+use antumbra::math::{DMat3, DVec3, Rgb, Transform};
+use antumbra::scene::{Level, Mesh, Message, Scene, SceneBuilder, builtin};
+use antumbra::texture::{Image, Texels};
+use antumbra::trace::{Pool, Triangles};
+use antumbra_io::{ReadOptions, UpAxis, read_environment, read_path};
+use numpy::{PyReadonlyArray2, PyReadonlyArray3};
+use pyo3::prelude::*;
+
+use crate::arrays::{Rows, columns};
+use crate::kinds::{self, Fields, Made};
+use crate::{errors, settings};
+
+/// What a scene is at the moment.
+struct State {
+    /// What it is made of, as long as more may be added.
+    builder: Option<SceneBuilder>,
+    /// The finished scene of that builder, once somebody looked.
+    built: Option<Arc<Scene>>,
+}
+
+/// A scene.
+#[pyclass(frozen, name = "Scene", module = "antumbra._core")]
+pub struct PyScene {
+    name: String,
+    /// The file it came from, for errors; may be empty.
+    file: String,
+    state: Mutex<State>,
+}
+
+impl PyScene {
+    fn of(builder: SceneBuilder, file: &str) -> PyScene {
+        let name = builder.name.clone();
+        PyScene { name, file: file.into(), state: Mutex::new(State { builder: Some(builder), built: None }) }
+    }
+
+    /// With the finished scene at once; `keep`: more may be added later.
+    fn finished(self, py: Python<'_>, keep: bool) -> PyResult<PyScene> {
+        self.with_state(|state| {
+            let scene = py.detach(|| build(state, keep)).map_err(|e| errors::scene(&e, &self.file))?;
+            state.built = Some(scene);
+            Ok(())
+        })?;
+        Ok(self)
+    }
+
+    fn with_state<R>(&self, work: impl FnOnce(&mut State) -> R) -> R {
+        work(&mut self.state.lock().unwrap_or_else(PoisonError::into_inner))
+    }
+
+    /// The finished scene; built now if anything was added since.
+    pub fn scene(&self, py: Python<'_>) -> PyResult<Arc<Scene>> {
+        py.detach(|| {
+            self.with_state(|state| match &state.built {
+                Some(scene) => Ok(Arc::clone(scene)),
+                None => {
+                    let scene = build(state, true)?;
+                    state.built = Some(Arc::clone(&scene));
+                    Ok(scene)
+                }
+            })
+        })
+        .map_err(|e| errors::scene(&e, &self.file))
+    }
+
+    /// The file it came from; may be empty.
+    pub fn file(&self) -> &str {
+        &self.file
+    }
+
+    /// Changes what it is made of.
+    fn change<R>(&self, work: impl FnOnce(&mut SceneBuilder) -> PyResult<R>) -> PyResult<R> {
+        self.with_state(|state| {
+            state.built = None;
+            match &mut state.builder {
+                Some(builder) => work(builder),
+                None => Err(errors::value("this scene is finished: nothing can be added")),
+            }
+        })
+    }
+}
+
+/// Checks and builds; `keep` leaves the builder for later additions.
+fn build(state: &mut State, keep: bool) -> Result<Arc<Scene>, antumbra::scene::SceneError> {
+    let builder = if keep { state.builder.clone() } else { state.builder.take() };
+    let builder = builder.unwrap_or_default();
+    // A pool of its own: nothing global, and none left over when the scene stands.
+    let scene = match rayon::ThreadPoolBuilder::new().build() {
+        Ok(threads) => builder.build_in(Pool::from(&threads)),
+        Err(_) => builder.build_in(Pool::serial()),
+    };
+    scene.map(Arc::new)
+}
+
+#[pymethods]
+impl PyScene {
+    /// An empty scene.
+    #[new]
+    fn new(name: &str) -> PyScene {
+        PyScene::of(SceneBuilder::new(name), "")
+    }
+
+    /// A built-in scene with some of its parameters.
+    #[staticmethod]
+    #[pyo3(signature = (name, parameters, keep = true))]
+    fn builtin(py: Python<'_>, name: &str, parameters: Vec<(String, f64)>, keep: bool) -> PyResult<PyScene> {
+        let builder = builtin::build(name, &parameters).map_err(|e| errors::choice(e.to_string()))?;
+        PyScene::of(builder, "").finished(py, keep)
+    }
+
+    /// A scene from a file.
+    #[staticmethod]
+    #[pyo3(signature = (path, up_axis = None, files_from = None, keep = true))]
+    fn load(
+        py: Python<'_>,
+        path: &str,
+        up_axis: Option<&str>,
+        files_from: Option<PathBuf>,
+        keep: bool,
+    ) -> PyResult<PyScene> {
+        let up_axis = match up_axis {
+            None => UpAxis::default(),
+            Some("y") => UpAxis::Y,
+            Some("z") => UpAxis::Z,
+            Some(other) => return Err(errors::choice(format!("there is no up axis \"{other}\" (y, z)"))),
+        };
+        let options = ReadOptions { files_from, up_axis, ..ReadOptions::default() };
+        let builder = py.detach(|| read_path(Path::new(path), &options)).map_err(|e| errors::read(&e))?;
+        PyScene::of(builder, path).finished(py, keep)
+    }
+
+    /// Adds a material and returns its number.
+    #[pyo3(signature = (kind, fields, emission = None))]
+    fn add_material(
+        &self,
+        kind: &str,
+        fields: HashMap<String, Vec<f64>>,
+        emission: Option<[f32; 3]>,
+    ) -> PyResult<u32> {
+        let material = kinds::material(kind, &Fields(fields), emission)?;
+        self.change(|builder| Ok(builder.material(material)))
+    }
+
+    /// Adds triangles and places them.
+    #[pyo3(signature = (name, vertices, faces, material, transform = None, normals = None))]
+    fn add_mesh(
+        &self,
+        name: &str,
+        vertices: Rows<'_>,
+        faces: PyReadonlyArray2<'_, u32>,
+        material: u32,
+        transform: Option<PyReadonlyArray2<'_, f64>>,
+        normals: Option<Rows<'_>>,
+    ) -> PyResult<()> {
+        let indices = faces.as_array().rows().into_iter().map(|f| [f[0], f[1], f[2]]).collect();
+        let triangles = Triangles { vertices: triples("vertices", &vertices)?, indices };
+        let normals = normals.map(|n| triples("normals", &n)).transpose()?;
+        let mesh = Mesh { name: name.into(), triangles, normals, ..Mesh::default() };
+        let transform = transform.map_or(Transform::IDENTITY, |m| matrix(&m));
+        self.change(|builder| {
+            let mesh = builder.mesh(mesh);
+            builder.place(name, mesh, material, transform);
+            Ok(())
+        })
+    }
+
+    /// Adds a shape.
+    fn add_shape(&self, name: &str, kind: &str, fields: HashMap<String, Vec<f64>>, material: u32) -> PyResult<()> {
+        let made = kinds::shape(kind, &Fields(fields))?;
+        self.change(|builder| {
+            match made {
+                Made::Shape(shape) => builder.shape(name, shape, material),
+                Made::Mesh(triangles) => builder.object(name, triangles, material),
+            }
+            Ok(())
+        })
+    }
+
+    /// Adds a light.
+    fn add_light(&self, name: &str, kind: &str, fields: HashMap<String, Vec<f64>>) -> PyResult<()> {
+        let light = kinds::light(kind, &Fields(fields))?;
+        if let Some(what) = light.fault() {
+            return Err(errors::value(what));
+        }
+        self.change(|builder| {
+            builder.light(name, light);
+            Ok(())
+        })
+    }
+
+    /// Adds an environment of a lat-long picture.
+    fn add_environment(&self, name: &str, pixels: PyReadonlyArray3<'_, f32>, scale: f32) -> PyResult<()> {
+        let pixels = pixels.as_array();
+        let texels = pixels.rows().into_iter().map(|c| [c[0], c[1], c[2]]).collect();
+        let image = Image::new(pixels.shape()[1] as u32, pixels.shape()[0] as u32, Texels::Float(texels));
+        let image = image.ok_or_else(|| errors::value("an environment has at least one pixel"))?;
+        self.change(|builder| {
+            builder.light(name, Environment::image(Arc::new(image)).scaled(Rgb::grey(scale)));
+            Ok(())
+        })
+    }
+
+    /// Adds an environment of a file.
+    fn add_environment_file(&self, py: Python<'_>, name: &str, path: &str, scale: f32) -> PyResult<()> {
+        let (light, messages) = environment_file(py, path)?;
+        self.change(|builder| {
+            builder.light(name, light.scaled(Rgb::grey(scale)));
+            builder.messages.extend(messages);
+            Ok(())
+        })
+    }
+
+    /// What it is called.
+    #[getter]
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Notes and warnings: (level, place, text).
+    fn messages(&self, py: Python<'_>) -> PyResult<Vec<(&'static str, String, String)>> {
+        Ok(self.scene(py)?.messages.iter().map(said).collect())
+    }
+}
+
+/// An environment from a lat-long file, with what there is to say about it.
+pub fn environment_file(py: Python<'_>, path: &str) -> PyResult<(Environment, Vec<Message>)> {
+    py.detach(|| read_environment(Path::new(path), &ReadOptions::default())).map_err(|e| errors::read(&e))
+}
+
+/// (level, place, text).
+pub fn said(message: &Message) -> (&'static str, String, String) {
+    let level = match message.level {
+        Level::Note => "note",
+        Level::Warning => "warning",
+    };
+    (level, message.place.clone(), message.text.clone())
+}
+
+fn triples(name: &str, rows: &Rows<'_>) -> PyResult<Vec<[f32; 3]>> {
+    let view = rows.view();
+    columns(name, &view, 3)?;
+    Ok((0..view.len()).map(|i| view.row::<3>(i).map(|c| c as f32)).collect())
+}
+
+fn matrix(m: &PyReadonlyArray2<'_, f64>) -> Transform {
+    let m = m.as_array();
+    let column = |k: usize| DVec3::new(m[[0, k]], m[[1, k]], m[[2, k]]);
+    Transform { linear: DMat3::from_cols(column(0), column(1), column(2)), translation: column(3) }
+}
