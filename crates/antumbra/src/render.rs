@@ -1,6 +1,6 @@
 //! Scene and settings → picture. Floor 8.
 
-use antumbra_math::{DVec3, Rgb};
+use antumbra_math::{DVec3, Rgb, Vec3};
 
 use crate::estimator::{AnyEstimator, EstimatorKind};
 use crate::film::{Film, Planes};
@@ -85,6 +85,23 @@ pub fn render(
     };
     let finished = schedule::run(&job, settings.threads, watch);
     Ok(picture(&scene, settings, &view, finished, messages))
+}
+
+/// Width and height of the picture that the settings ask for.
+pub fn picture_size(scene: &Scene, settings: &Settings) -> Result<[u32; 2], SceneError> {
+    let [_, _, width, height] = view(&camera(scene, settings, &mut Vec::new())?, settings)?.crop;
+    Ok([width, height])
+}
+
+/// Origin and unit direction of the viewing ray through the centre of each pixel, row after row from the top.
+pub fn camera_rays(scene: &Scene, settings: &Settings) -> Result<Vec<(Vec3, Vec3)>, SceneError> {
+    let camera = camera(scene, settings, &mut Vec::new())?;
+    let view = view(&camera, settings)?;
+    let sensor = CameraSensor::new(&camera, view);
+    let [left, top, width, height] = view.crop;
+    let centre = |from: u32, i: u32| f64::from(from + i) + 0.5;
+    let rows = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
+    Ok(rows.map(|(x, y)| sensor.ray(centre(left, x), centre(top, y))).collect())
 }
 
 /// The scene with the lights that the settings leave on.

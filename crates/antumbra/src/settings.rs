@@ -31,6 +31,8 @@ pub struct Setting {
     pub default: fn() -> String,
     /// What it does, in one line.
     pub help: &'static str,
+    /// It may be given more than once.
+    pub repeats: bool,
 }
 
 /// A value that does not fit its setting.
@@ -63,6 +65,7 @@ macro_rules! settings {
             choices: <$ty as SettingValue>::CHOICES,
             default: || { let value: $ty = $default; value.show() },
             help: concat!($($help),+),
+            repeats: <$ty as SettingValue>::REPEATS,
         },)*)*];
         impl Settings {
             /// Sets one by its name (words joined by `_` or `-`) from what a person wrote.
@@ -238,8 +241,11 @@ impl Settings {
 }
 
 fn fault(name: &str, text: &str, what: String) -> SettingError {
-    let what = what.replace("{}", text);
-    SettingError { name: name.into(), what: format!("{name} {text}: {what}") }
+    let what = match what.strip_prefix("there is no ") {
+        Some(rest) => format!("there is no {name} {rest}"),
+        None => format!("{name} {text}: {what}"),
+    };
+    SettingError { name: name.into(), what }
 }
 
 fn unknown(name: &str) -> SettingError {

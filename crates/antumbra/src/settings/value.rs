@@ -10,6 +10,8 @@ pub trait SettingValue: Sized {
     const METAVAR: &'static str;
     /// The allowed words, if it is a choice.
     const CHOICES: &'static [&'static str] = &[];
+    /// It may be given more than once.
+    const REPEATS: bool = false;
     /// Reads it; the error says what would be right.
     fn parse(text: &str) -> Result<Self, String>;
     /// Writes it so that `parse` reads it back; empty = none.
@@ -85,6 +87,7 @@ impl SettingValue for String {
 /// Several names, one a line (names in files may hold commas).
 impl SettingValue for Vec<String> {
     const METAVAR: &'static str = "NAME";
+    const REPEATS: bool = true;
     fn parse(text: &str) -> Result<Self, String> {
         Ok(text.lines().map(String::from).collect())
     }
