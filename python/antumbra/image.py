@@ -75,7 +75,7 @@ class Image:
     @property
     def hash(self) -> str:
         """A number of the pixels' bits: the same picture has the same."""
-        return f"{self._picture.hash:016x}"
+        return f"{self._picture.hash:08x}"
 
     @property
     def relative_error(self) -> float | None:
@@ -122,8 +122,8 @@ class Image:
         return _rebuilt, (self._picture.parts(), self.name, self.seconds)
 
 
-def _rebuilt(parts: bytes, name: str, seconds: float) -> Image:
-    return Image(_core.Picture.from_parts(parts), name=name, seconds=seconds)
+def _rebuilt(parts: tuple[Any, ...], name: str, seconds: float) -> Image:
+    return Image(_core.Picture.from_parts(*parts), name=name, seconds=seconds)
 
 
 def load_image(path: str | PathLike[str]) -> NDArray[np.float32]:

@@ -39,25 +39,20 @@ class Progress(NamedTuple):
 
 
 def load(
-    path: str | PathLike[str],
-    *,
-    up_axis: str | None = None,
-    files_from: str | PathLike[str] | None = None,
-    definitions: Mapping[str, Any] | None = None,
+    path: str | PathLike[str], *, up_axis: str | None = None, files_from: str | PathLike[str] | None = None
 ) -> Scene:
     """Reads a scene: glTF/GLB, OBJ, PLY, STL, or a lat-long picture (HDR, EXR: a built-in scene under it).
 
     `up_axis`: "y" or "z", the axis that points up in the file; `files_from`: the folder that the file's own paths
-    may reach (default: its own folder); `definitions`: values of the file's `$name`s.
+    may reach (default: its own folder).
 
     Raises SceneError with .file, .place and .hint.
 
     >>> import antumbra as am
     >>> am.load("room.glb").render().save("room.exr")  # doctest: +SKIP
     """
-    words = [(name, str(value)) for name, value in (definitions or {}).items()]
     folder = None if files_from is None else fspath(files_from)
-    return Scene._of(_core.Scene.load(fspath(path), up_axis, folder, words))
+    return Scene._of(_core.Scene.load(fspath(path), up_axis, folder))
 
 
 def builtin(name: str, **parameters: float) -> Scene:
@@ -179,14 +174,14 @@ class Scene:
         return image
 
     def camera_rays(
-        self, size: tuple[int, int], *, camera: str | None = None
+        self, size: tuple[int, int] | None = None, **options: Any
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """One viewing ray through the centre of each pixel: origins and unit directions, (H·W, 3) float64 each.
 
-        `size` = (width, height); row after row from the top: `x.reshape(height, width, 3)` is the picture.
+        `size` = (width, height), or the camera's own; options of the camera as in `render`. Row after row from the
+        top: `x.reshape(height, width, 3)` is the picture.
         """
-        width, height = size
-        return self._core.camera_rays(int(width), int(height), camera)
+        return self._core.camera_rays(list(settings.words({"size": size, **options}).items()))
 
     # ---- questions ----
 
@@ -259,16 +254,23 @@ class Scene:
         return self._estimate("ambient_occlusion", points, normals, words)
 
     def visible_fraction(
-        self, points: ArrayLike | Receivers, light: str | int = 0, *, rays: int = 64, **options: Any
+        self,
+        points: ArrayLike | Receivers,
+        normals: ArrayLike | None = None,
+        *,
+        light: str | int = 0,
+        rays: int = 64,
+        **options: Any,
     ) -> Estimate:
         """Which part of one light each point sees, (N,): mean V over its area (flat) or solid angle (others).
 
-        `light`: its name, or its number in the order of building.
+        What lies below a point's horizon is not seen. `light`: its name, or its number in the order of building.
         """
-        start, _ = self._start(points)
-        began = time.perf_counter()
+        start, facing = places(points, normals)
+        inside = start._core if isinstance(start, Receivers) else start
         words = settings.words({"shadow_rays": rays, **options})
-        values, errors = self._core.visible_fraction(start, str(light), list(words.items()))
+        began = time.perf_counter()
+        values, errors = self._core.visible_fraction(inside, facing, str(light), list(words.items()))
         return Estimate(values, errors, "visible fraction", rays, time.perf_counter() - began)
 
     def _estimate(self, what: str, points: Any, normals: Any, options: dict[str, Any]) -> Estimate:
@@ -289,18 +291,21 @@ class Scene:
     # ---- the pieces of an estimator ----
 
     def sample_light(
-        self, points: ArrayLike | Receivers, normals: ArrayLike | None, u: ArrayLike, *, light: str | int = 0
+        self, points: ArrayLike | Receivers, normals: ArrayLike | None, u: ArrayLike, **options: Any
     ) -> LightSamples:
-        """Draws one point of a light for each receiver, from `u` (N, 2) in [0, 1).
+        """Draws one light and one point of it for each receiver, from three numbers `u` (N, 3) in [0, 1) each.
 
-        Gives `direction` ω_i (N, 3), `distance` (N,), `radiance` L_e (N, 3) and `pdf` (N,) in solid angle at the
-        receiver [1/sr]; radiance 0 and pdf 1 where the light cannot reach. Light that arrives = f · radiance · cos θ /
-        pdf, if the segment is free. Point and directional lights have pdf 1 and their irradiance as radiance.
+        Gives `direction` ω_i (N, 3), `target` (N, 3), where the shadow ray ends, `distance` (N,), `radiance` L_e
+        (N, 3), `pdf` (N,): p(light) · p(ω_i) in solid angle at the receiver [1/sr], and `light` (N,), its number.
+        Light that arrives = f · radiance · cos θ / pdf, if the segment to the target is free. Where no light can
+        reach, radiance is 0 and pdf is 1; lights without size have p(light) as pdf and their irradiance as radiance.
+        Options: `lights` (how one is chosen: "uniform", "power", "contribution") and `light_points`.
         """
         start, facing = places(points, normals)
         inside = start._core if isinstance(start, Receivers) else start
-        square = matching("u", u, "points", len(start), columns=2)
-        return LightSamples(*self._core.sample_light(inside, facing, square, str(light)))
+        cube = matching("u", u, "points", len(start))
+        words = list(settings.words(options).items())
+        return LightSamples(*self._core.sample_light(inside, facing, cube, words))
 
     def brdf(self, hit: Hit | Receivers, wo: ArrayLike, wi: ArrayLike) -> NDArray[np.float32]:
         """f_r(ω_o, ω_i) [1/sr] at each receiver, (N, 3) float32, without the cosine.
@@ -339,10 +344,12 @@ class Scene:
 class LightSamples(NamedTuple):
     """One drawn light point per receiver, as `Scene.sample_light` describes."""
 
-    direction: NDArray[np.float64]
-    distance: NDArray[np.float64]
+    direction: NDArray[np.float32]
+    target: NDArray[np.float32]
+    distance: NDArray[np.float32]
     radiance: NDArray[np.float32]
     pdf: NDArray[np.float32]
+    light: NDArray[np.uint32]
 
 
 def _mesh_of(mesh: Any) -> tuple[Any, Any]:

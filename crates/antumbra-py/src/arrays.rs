@@ -1,13 +1,10 @@
-//! Arrays of Python read as they lie: float32 or float64, any stride, a chunk of rows at a time.
+//! Arrays of Python read as they lie: float32 or float64, any stride.
 
-use numpy::ndarray::{ArrayView1, ArrayView2};
-use numpy::{PyReadonlyArray1, PyReadonlyArray2};
+use numpy::PyReadonlyArray2;
+use numpy::ndarray::ArrayView2;
 use pyo3::prelude::*;
 
 use crate::errors;
-
-/// Rows of a query that are gathered at once: enough for every thread, little memory.
-pub const CHUNK: usize = 1 << 17;
 
 /// An (N, K) array of either precision.
 #[derive(FromPyObject)]
@@ -65,11 +62,6 @@ impl View<'_> {
     }
 }
 
-/// A column of numbers.
-pub fn column<'a>(array: &'a PyReadonlyArray1<'_, f64>) -> ArrayView1<'a, f64> {
-    array.as_array()
-}
-
 /// Has `K` columns, or an error that says what is needed (the Python side has checked it before).
 pub fn columns(name: &str, view: &View<'_>, k: usize) -> PyResult<()> {
     let found = match view {
@@ -77,17 +69,4 @@ pub fn columns(name: &str, view: &View<'_>, k: usize) -> PyResult<()> {
         View::Double(array) => array.ncols(),
     };
     if found == k { Ok(()) } else { Err(errors::value(format!("{name} has {found} columns: {k} are needed"))) }
-}
-
-/// Runs `work` on chunks of `0..n`, asking Python between them whether Ctrl-C was pressed; the lock is free meanwhile.
-pub fn in_chunks(py: Python<'_>, n: usize, mut work: impl FnMut(std::ops::Range<usize>) -> Result<(), String> + Send)
--> PyResult<()> {
-    let mut from = 0;
-    while from < n {
-        let range = from..n.min(from + CHUNK);
-        from = range.end;
-        py.detach(|| work(range)).map_err(errors::value)?;
-        py.check_signals()?;
-    }
-    Ok(())
 }

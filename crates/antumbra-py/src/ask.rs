@@ -1,23 +1,19 @@
-//! Questions about many rays at once: gathered from arrays a part at a time, answered by all cores.
+//! Questions about many rays at once, gathered from arrays as they lie.
 
-use std::sync::Arc;
+use std::ops::Range;
+use std::sync::{Arc, Mutex, PoisonError};
 
+use antumbra::query::RayHit;
 use antumbra::scene::Scene;
+use antumbra::schedule::Flow;
 use antumbra::sensor::Query;
 use antumbra::trace::{NO_PRIM, SegmentBuffer};
 use numpy::ndarray::ArrayView1;
 use pyo3::prelude::*;
-use rayon::prelude::*;
 
 use crate::arrays::{Rows, View};
 use crate::errors;
-use crate::receivers::{Receivers, Start};
-
-/// Rays that one thread takes at a time: enough for a batch, few enough to keep all cores busy.
-const PART: usize = 4096;
-
-/// Rays between two looks whether Ctrl-C was pressed.
-const BETWEEN_SIGNALS: usize = 1 << 20;
+use crate::receivers::{Ray, Receivers, Start};
 
 /// Where rays start: receivers of a hit, or bare points.
 #[derive(FromPyObject)]
@@ -75,21 +71,48 @@ pub struct Batch<'a> {
 }
 
 impl Batch<'_> {
-    /// Gathers entry `i`; `false` = it starts at a ray that missed, nothing to ask.
-    fn push(&self, i: usize, buffer: &mut SegmentBuffer) -> Result<bool, String> {
+    /// Gathers a run of entries. An entry that cannot be asked about becomes a ray of length 0, which meets nothing;
+    /// if it is the caller's mistake it is noted in `wrong`.
+    pub fn gather(&self, run: Range<usize>, buffer: &mut SegmentBuffer, wrong: &Wrong) {
+        for i in run {
+            match self.entry(i) {
+                Ok(Some(Entry { origin, end, reach: Some(reach), first })) => {
+                    buffer.push_ray(origin, end, reach, first, i as u32);
+                }
+                Ok(Some(Entry { origin, end, reach: None, first })) => {
+                    buffer.push_segment(origin, end, first, NO_PRIM, i as u32);
+                }
+                Ok(None) => buffer.push_ray([0.0; 3], [1.0; 3], 0.0, NO_PRIM, i as u32),
+                Err(what) => {
+                    buffer.push_ray([0.0; 3], [1.0; 3], 0.0, NO_PRIM, i as u32);
+                    wrong.note(i, what);
+                }
+            }
+        }
+    }
+
+    /// Entry `i`; `None` = it starts at a ray that missed.
+    fn entry(&self, i: usize) -> Result<Option<Entry>, String> {
         let end = single(self.name, i, self.ends.finite::<3>(self.name, i)?)?;
+        let reach = self.reach.map(|reach| distance(reach[i], i)).transpose()?;
         let (origin, first) = match self.starts {
             Starts::Points(points) => (single("origins", i, points.finite::<3>("origins", i)?)?, NO_PRIM),
             Starts::Receivers(receivers) => match receivers.start(i) {
                 Some(start) => (start.origin, self.first(&start, end)),
-                None => return Ok(false),
+                None => return Ok(None),
             },
         };
-        match self.reach {
-            None => buffer.push_segment(origin, end, first, NO_PRIM, i as u32),
-            Some(reach) => buffer.push_ray(origin, end, distance(reach[i], i)?, first, i as u32),
+        Ok(Some(Entry { origin, end, reach, first }))
+    }
+
+    /// Entry `i` with what it met, in few bytes.
+    pub fn ray(&self, i: usize, hit: &RayHit) -> Ray {
+        match self.entry(i) {
+            Ok(Some(Entry { origin, end, .. })) => {
+                Ray { o: origin, d: end, t: hit.t, prim: hit.prim, uv: hit.uv }
+            }
+            _ => Ray::MISS,
         }
-        Ok(true)
     }
 
     /// The own surface is left out only where the ray leaves on the side that it starts from.
@@ -101,54 +124,44 @@ impl Batch<'_> {
         let cos: f64 = along.iter().zip(start.normal).map(|(d, n)| d * n).sum();
         if cos > 0.0 { start.prim } else { NO_PRIM }
     }
+}
 
-    /// Asks about all entries, part by part on all cores: `answer` gets a gathered part, the numbers of its entries and
-    /// the results of the part. Entries that start nowhere keep what `out` has.
-    pub fn answer<T: Send>(
-        &self,
-        py: Python<'_>,
-        out: &mut [T],
-        answer: impl Fn(&SegmentBuffer, &[u32], usize, &mut [T]) + Sync,
-    ) -> PyResult<()> {
-        let pool = (out.len() > PART).then(|| rayon::ThreadPoolBuilder::new().build().ok()).flatten();
-        for (chunk, out) in out.chunks_mut(BETWEEN_SIGNALS).enumerate() {
-            let from = chunk * BETWEEN_SIGNALS;
-            let part = |work: &mut Work, k: usize, out: &mut [T]| {
-                let first = from + k * PART;
-                work.clear();
-                for i in first..first + out.len() {
-                    if self.push(i, &mut work.buffer)? {
-                        work.entries.push((i - first) as u32);
-                    }
-                }
-                answer(&work.buffer, &work.entries, first, out);
-                Ok(())
-            };
-            let done = py.detach(|| match &pool {
-                Some(pool) => pool.install(|| {
-                    let parts = out.par_chunks_mut(PART).enumerate();
-                    parts.map_init(Work::default, |work, (k, out)| part(work, k, out)).collect()
-                }),
-                None => part(&mut Work::default(), 0, out),
-            });
-            done.map_err(|what: String| errors::value(what))?;
-            py.check_signals()?;
+struct Entry {
+    origin: [f32; 3],
+    end: [f32; 3],
+    reach: Option<f32>,
+    first: u32,
+}
+
+/// The first entry that is the caller's mistake, whichever thread finds it.
+#[derive(Default)]
+pub struct Wrong(Mutex<Option<(usize, String)>>);
+
+impl Wrong {
+    fn note(&self, i: usize, what: String) {
+        let mut first = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        if first.as_ref().is_none_or(|(known, _)| i < *known) {
+            *first = Some((i, what));
         }
-        Ok(())
+    }
+
+    /// ValueError, if there is one.
+    pub fn raise(self) -> PyResult<()> {
+        match self.0.into_inner().unwrap_or_else(PoisonError::into_inner) {
+            Some((_, what)) => Err(errors::value(what)),
+            None => Ok(()),
+        }
     }
 }
 
-/// What a thread fills again and again.
-#[derive(Default)]
-struct Work {
-    buffer: SegmentBuffer,
-    entries: Vec<u32>,
-}
-
-impl Work {
-    fn clear(&mut self) {
-        self.buffer.clear();
-        self.entries.clear();
+/// Asks Python whether Ctrl-C was pressed; what it raised is kept.
+pub fn look(raised: &mut Option<PyErr>) -> Flow {
+    match Python::attach(|py| py.check_signals()) {
+        Ok(()) => Flow::Continue,
+        Err(e) => {
+            *raised = Some(e);
+            Flow::Stop
+        }
     }
 }
 

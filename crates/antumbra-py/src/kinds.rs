@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use antumbra::light::{Directional, Disk, Environment, Light, Point, Rectangle, Sphere, Spot, Sun, Triangle};
 use antumbra::math::{Rgb, Vec3};
-use antumbra::scene::{Body, Emission, Material};
+use antumbra::scene::{Emission, Material};
 use antumbra::trace::{Shape, Triangles};
 use pyo3::prelude::*;
 

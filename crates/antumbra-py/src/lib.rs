@@ -26,7 +26,8 @@ mod _core {
     #[pymodule_export]
     use super::settings::{builtins, check_settings, nearest, table};
 
-    /// The version of antumbra.
-    #[pymodule_export]
-    const __version__: &str = env!("CARGO_PKG_VERSION");
+    #[pymodule_init]
+    fn init(module: &pyo3::Bound<'_, pyo3::types::PyModule>) -> pyo3::PyResult<()> {
+        pyo3::types::PyModuleMethods::add(module, "__version__", env!("CARGO_PKG_VERSION"))
+    }
 }

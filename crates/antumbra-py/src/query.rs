@@ -1,21 +1,23 @@
 //! Queries of a scene: arrays of points or rays in, arrays of answers out.
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use antumbra::light::LightId;
-use antumbra::query::{self, Estimated};
+use antumbra::math::Vec3;
+use antumbra::query::{self, Estimated, RayHit};
 use antumbra::render;
 use antumbra::scene::Scene;
 use antumbra::schedule::{Flow, Progress};
 use antumbra::sensor::Query;
 use antumbra::settings::Settings;
-use antumbra::trace::{Bits, Hits as TraceHits, Visibility};
+use antumbra::trace::SegmentBuffer;
 use numpy::ndarray::{Array1, Array2};
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray1};
 use pyo3::prelude::*;
 
 use crate::arrays::{Rows, columns};
-use crate::ask::{Batch, Origins, Starts, queries};
+use crate::ask::{Batch, Origins, Starts, Wrong, look, queries};
 use crate::receivers::{Hits, Ray, Receivers};
 use crate::scene::PyScene;
 use crate::{errors, settings};
@@ -37,14 +39,12 @@ impl PyScene {
     ) -> PyResult<Bound<'py, PyArray1<bool>>> {
         let scene = self.scene(py)?;
         let batch = batch(&scene, &origins, &ends, reach.as_ref())?;
-        let visibility = scene.visibility(false);
         let mut out = vec![false; batch.starts.len()];
-        batch.answer(py, &mut out, |segments, entries, _, out| {
-            let mut blocked = Bits::default();
-            visibility.occluded(segments.as_segments(), &mut blocked);
-            for (i, entry) in entries.iter().enumerate() {
-                out[*entry as usize] = blocked.get(i);
-            }
+        in_runs(py, &mut out, |from, out, wrong, watch| {
+            let fill = |run: Range<usize>, buffer: &mut SegmentBuffer| {
+                batch.gather(from + run.start..from + run.end, buffer, wrong);
+            };
+            query::occluded(&scene, &fill, 0, out, watch);
         })?;
         Ok(out.into_pyarray(py))
     }
@@ -59,17 +59,17 @@ impl PyScene {
     ) -> PyResult<Hits> {
         let scene = self.scene(py)?;
         let batch = batch(&scene, &origins, &directions, Some(&reach))?;
-        let visibility = scene.visibility(false);
         let mut out = vec![Ray::MISS; batch.starts.len()];
-        batch.answer(py, &mut out, |rays, entries, _, out| {
-            let (rays, mut hits) = (rays.as_segments(), TraceHits::default());
-            visibility.nearest(rays, &mut hits);
-            for (i, entry) in entries.iter().enumerate() {
-                let (o, d) = (rays.origin_at(i), rays.end_at(i));
-                out[*entry as usize] = Ray { o, d, t: hits.t[i], prim: hits.prim[i], uv: hits.uv[i] };
+        in_runs(py, &mut out, |from, out, wrong, watch| {
+            let mut hits = vec![RayHit::MISS; out.len()];
+            let fill = |run: Range<usize>, buffer: &mut SegmentBuffer| {
+                batch.gather(from + run.start..from + run.end, buffer, wrong);
+            };
+            query::closest_hit(&scene, &fill, 0, &mut hits, watch);
+            for (i, (out, hit)) in out.iter_mut().zip(&hits).enumerate() {
+                *out = batch.ray(from + i, hit);
             }
         })?;
-        drop(visibility);
         Ok(Hits::new(scene, out))
     }
 
@@ -106,7 +106,8 @@ impl PyScene {
         light: &str,
         words: Words,
     ) -> PyResult<(Column<'py>, Column<'py>)> {
-        let number = light_number(&*self.scene(py)?, light)?;
+        let scene = self.scene(py)?;
+        let number = light_number(&scene, light)?;
         let ask = |scene: &Scene, queries: &[Query], settings: &Settings, watch: &mut dyn FnMut(Progress) -> Flow| {
             query::visible_fraction(scene, queries, number, settings, watch)
         };
@@ -157,7 +158,7 @@ impl PyScene {
             let (wo, wi) = (wo.finite::<3>("wo", i)?, wi.finite::<3>("wi", i)?);
             let Some(met) = receivers.met(i) else { return Ok([0.0; 3]) };
             let at = met.receiver;
-            let [wo, wi] = [wo, wi].map(|w| antumbra::math::Vec3::from(w.map(|c| c as f32)));
+            let [wo, wi] = [wo, wi].map(|w| Vec3::from(w.map(|c| c as f32)));
             let seen = at.sees_side(wo) && at.sees_side(wi);
             Ok(if seen { at.bsdf.eval(at.to_local(wo), at.to_local(wi)).0 } else { [0.0; 3] })
         };
@@ -172,13 +173,13 @@ impl PyScene {
         words: Words,
     ) -> PyResult<(Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<f64>>)> {
         let scene = self.scene(py)?;
-        let rays = render::camera_rays(&*scene, &settings::parse(&words)?).map_err(|e| errors::scene(&e, ""))?;
-        let doubles = |rows: &[[f32; 3]]| rows.iter().flatten().map(|c| f64::from(*c)).collect::<Vec<f64>>();
-        let array = |rows: &[[f32; 3]]| {
-            let made = Array2::from_shape_vec((rows.len(), 3), doubles(rows));
+        let rows = render::camera_rays(&scene, &settings::parse(&words)?).map_err(|e| errors::scene(&e, self.file()))?;
+        let array = |row: fn(&(Vec3, Vec3)) -> Vec3| {
+            let doubles = rows.iter().flat_map(|r| row(r).to_array().map(f64::from)).collect();
+            let made = Array2::from_shape_vec((rows.len(), 3), doubles);
             made.map(|a| a.into_pyarray(py)).map_err(|e| errors::value(e.to_string()))
         };
-        Ok((array(&rays.0)?, array(&rays.1)?))
+        Ok((array(|r| r.0)?, array(|r| r.1)?))
     }
 }
 
@@ -191,23 +192,15 @@ impl PyScene {
         normals: Option<&Rows<'_>>,
         words: &[(String, String)],
         elsewhere: [f32; 3],
-        ask: impl Fn(&Scene, &[Query], &Settings, &mut dyn FnMut(Progress) -> Flow) -> Estimated + Send,
+        ask: impl Fn(&Scene, &[Query], &Settings, &mut dyn FnMut(Progress) -> Flow) -> Estimated + Send + Sync,
     ) -> PyResult<Estimated> {
         let scene = self.scene(py)?;
         let settings = settings::parse(words)?;
         let (queries, rows) = gather(&scene, points, normals)?;
         let n = points.view(&scene)?.len();
-        let mut interrupted = None;
-        let estimated = py.detach(|| {
-            ask(&scene, &queries, &settings, &mut |_| match Python::attach(|py| py.check_signals()) {
-                Ok(()) => Flow::Continue,
-                Err(e) => {
-                    interrupted = Some(e);
-                    Flow::Stop
-                }
-            })
-        });
-        match interrupted {
+        let mut raised = None;
+        let estimated = py.detach(|| ask(&scene, &queries, &settings, &mut |_| look(&mut raised)));
+        match raised {
             Some(e) => Err(e),
             None => Ok(Estimated {
                 values: spread(&estimated.values, &rows, n, elsewhere),
@@ -215,6 +208,31 @@ impl PyScene {
                 rays_done: estimated.rays_done,
             }),
         }
+    }
+}
+
+/// Rays that are answered between two whole arrays of hits: bounds what they take.
+const RUN: usize = 1 << 19;
+
+/// Answers `out` run by run without Python's lock: `answer(from, run, wrong, watch)`. Ctrl-C raises KeyboardInterrupt.
+fn in_runs<T: Send>(
+    py: Python<'_>,
+    out: &mut [T],
+    answer: impl Fn(usize, &mut [T], &Wrong, &mut dyn FnMut(u64) -> Flow) + Sync,
+) -> PyResult<()> {
+    let wrong = Wrong::default();
+    let mut raised = None;
+    py.detach(|| {
+        for (k, run) in out.chunks_mut(RUN).enumerate() {
+            answer(k * RUN, run, &wrong, &mut |_| look(&mut raised));
+            if raised.is_some() {
+                break;
+            }
+        }
+    });
+    match raised {
+        Some(e) => Err(e),
+        None => wrong.raise(),
     }
 }
 

@@ -49,7 +49,8 @@ impl PyScene {
     /// Width and height of the picture that these settings ask for.
     fn picture_size(&self, py: Python<'_>, words: Vec<(String, String)>) -> PyResult<[u32; 2]> {
         let settings = settings::parse(&words)?;
-        render::picture_size(&*self.scene(py)?, &settings).map_err(|e| errors::scene(&e, self.file()))
+        let scene = self.scene(py)?;
+        render::picture_size(&scene, &settings).map_err(|e| errors::scene(&e, self.file()))
     }
 }
 

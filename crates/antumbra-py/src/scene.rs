@@ -4,18 +4,19 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
-use antumbra::light::{Environment, Light};
+use antumbra::light::Environment;
 use antumbra::math::{DMat3, DVec3, Rgb, Transform};
-use antumbra::scene::{Level, Mesh, Message, Scene, SceneBuilder, builtin};
+use antumbra::scene::{Level, Mesh, Message, Scene, SceneBuilder, SceneError, builtin};
+use antumbra::schedule;
 use antumbra::texture::{Image, Texels};
-use antumbra::trace::{Pool, Triangles};
+use antumbra::trace::Triangles;
 use antumbra_io::{ReadOptions, UpAxis, read_environment, read_path};
 use numpy::{PyReadonlyArray2, PyReadonlyArray3};
 use pyo3::prelude::*;
 
 use crate::arrays::{Rows, columns};
+use crate::errors;
 use crate::kinds::{self, Fields, Made};
-use crate::{errors, settings};
 
 /// What a scene is at the moment.
 struct State {
@@ -42,12 +43,16 @@ impl PyScene {
 
     /// With the finished scene at once; `keep`: more may be added later.
     fn finished(self, py: Python<'_>, keep: bool) -> PyResult<PyScene> {
-        self.with_state(|state| {
-            let scene = py.detach(|| build(state, keep)).map_err(|e| errors::scene(&e, &self.file))?;
-            state.built = Some(scene);
-            Ok(())
-        })?;
-        Ok(self)
+        let built = py.detach(|| {
+            self.with_state(|state| {
+                state.built = Some(build(state, keep)?);
+                Ok(())
+            })
+        });
+        match built {
+            Ok(()) => Ok(self),
+            Err(e) => Err(errors::scene(&e, &self.file)),
+        }
     }
 
     fn with_state<R>(&self, work: impl FnOnce(&mut State) -> R) -> R {
@@ -87,15 +92,10 @@ impl PyScene {
 }
 
 /// Checks and builds; `keep` leaves the builder for later additions.
-fn build(state: &mut State, keep: bool) -> Result<Arc<Scene>, antumbra::scene::SceneError> {
+fn build(state: &mut State, keep: bool) -> Result<Arc<Scene>, SceneError> {
     let builder = if keep { state.builder.clone() } else { state.builder.take() };
     let builder = builder.unwrap_or_default();
-    // A pool of its own: nothing global, and none left over when the scene stands.
-    let scene = match rayon::ThreadPoolBuilder::new().build() {
-        Ok(threads) => builder.build_in(Pool::from(&threads)),
-        Err(_) => builder.build_in(Pool::serial()),
-    };
-    scene.map(Arc::new)
+    schedule::build(builder, 0).map(Arc::new)
 }
 
 #[pymethods]

@@ -35,7 +35,9 @@ def open_scene(
 
     given = [_definition(text) for text in definitions]
     if Path(scene).exists() or "." in scene or "/" in scene:
-        return Scene._of(_core.Scene.load(scene, up_axis, files_from, given, keep=False))
+        if given:
+            raise click.UsageError(f"-D {definitions[0]}: {scene} has no parameters")
+        return Scene._of(_core.Scene.load(scene, up_axis, files_from, keep=False))
     for option, value in (("--up-axis", up_axis), ("--files-from", files_from)):
         if value is not None:
             raise click.UsageError(f'{option} is for files: "{scene}" is a built-in scene')

@@ -83,11 +83,13 @@ def measures(picture: Picture, reference: Picture, shown: bool) -> tuple[dict[st
 
 
 def _write_map(error: Picture, path: str) -> None:
+    import numpy as np
     from matplotlib import colormaps
 
-    _core.write_bytes(
-        path, bytes(_core.encode_png((255 * colormaps["magma"](error)[..., :3]).astype("uint8")))
-    )
+    shown = colormaps["magma"](error)[..., :3]
+    # The writer takes linear light: sRGB's curve undone (IEC 61966-2-1), so that the map's own codes come out.
+    linear = np.where(shown <= 0.04045, shown / 12.92, ((shown + 0.055) / 1.055) ** 2.4)
+    _core.write_picture(path, np.ascontiguousarray(linear, np.float32))
 
 
 def _size(picture: Picture) -> str:

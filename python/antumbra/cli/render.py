@@ -113,7 +113,7 @@ def _ending(image: Image, path: Path) -> str:
     ]
     if image.relative_error is not None:
         parts.append(f"standard error {_say.significant(100 * image.relative_error, 2)} % of the mean")
-    parts.append(f"same bits: {image.hash[:8]}")
+    parts.append(f"same bits: {image.hash}")
     return f"{path}   {' · '.join(parts)}"
 
 
