@@ -15,14 +15,14 @@ import importlib
 from typing import TYPE_CHECKING, Any
 
 from antumbra._core import __version__
-from antumbra.errors import OptionError, RenderStopped, SceneError
+from antumbra.errors import Message, OptionError, RenderStopped, SceneError
 
 if TYPE_CHECKING:
     from antumbra import lights, materials, shapes
     from antumbra.estimate import Estimate
     from antumbra.hit import Hit
     from antumbra.image import Image, load_image
-    from antumbra.scene import Message, Scene, builtin, builtins, load
+    from antumbra.scene import Scene, builtin, builtins, load
 
 __all__ = [
     "Estimate",
@@ -48,7 +48,6 @@ _HOME = {
     "Estimate": "estimate",
     "Hit": "hit",
     "Image": "image",
-    "Message": "scene",
     "Scene": "scene",
     "builtin": "scene",
     "builtins": "scene",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,7 +31,7 @@ def numbers(name: str, value: Any) -> Array:
     if array.dtype.kind not in "fiu":
         raise TypeError(f"{name} has dtype {array.dtype}: float32 or float64 is needed")
     readable = array.dtype in (np.float32, np.float64) and array.dtype.isnative and array.flags.aligned
-    return array if readable else array.astype(np.float64)
+    return cast("Array", array if readable else array.astype(np.float64))
 
 
 def matching(name: str, value: Any, other: str, count: int, columns: int = 3) -> Array:

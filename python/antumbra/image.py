@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from antumbra import _core
+from antumbra.errors import Message
 
 
 class Image:
@@ -51,6 +52,11 @@ class Image:
     def metadata(self) -> dict[str, str]:
         """Settings, seed, version, scene hash: what the EXR file will say."""
         return dict(self._picture.metadata)
+
+    @property
+    def messages(self) -> list[Message]:
+        """Notes and warnings of this render; the scene has its own."""
+        return [Message(*said) for said in self._picture.messages]
 
     @property
     def passes_done(self) -> int:

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from os import PathLike, fspath
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -13,21 +13,13 @@ from numpy.typing import ArrayLike, NDArray
 from antumbra import _core, settings
 from antumbra._arrays import indices, matching, numbers, per_row, places, rows
 from antumbra._values import Color, color
-from antumbra.errors import RenderStopped
+from antumbra.errors import Message, RenderStopped
 from antumbra.estimate import Estimate
 from antumbra.hit import Hit, Receivers
 from antumbra.image import Image
 from antumbra.lights import Environment, Light
 from antumbra.materials import Diffuse, Material
 from antumbra.shapes import Shape
-
-
-class Message(NamedTuple):
-    """A note or warning about a scene: its `level`, the `place` in the file (may be empty), and what it says."""
-
-    level: str
-    place: str
-    text: str
 
 
 class Progress(NamedTuple):
@@ -136,7 +128,7 @@ class Scene:
         """Adds a light of `antumbra.lights`; `name` is what `light=` and `visible_fraction` call it."""
         if isinstance(light, Environment) and isinstance(light.radiance, (str, PathLike)):
             self._core.add_environment_file(name, fspath(light.radiance), light.scale)
-        elif isinstance(light, Environment) and np.ndim(light.radiance) == 3:
+        elif isinstance(light, Environment) and np.ndim(cast("ArrayLike", light.radiance)) == 3:
             picture = _lat_long(light.radiance)
             self._core.add_environment(name, picture, light.scale)
         else:

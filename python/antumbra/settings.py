@@ -17,7 +17,7 @@ class Setting(NamedTuple):
     name: str
     group: str
     metavar: str
-    choices: tuple[str, ...]
+    choices: list[str]
     default: str
     help: str
     repeats: bool
@@ -65,7 +65,7 @@ def _word(name: str, value: Any) -> str:
         raise TypeError(f"{name} is a {kind}: a number, a word or a sequence of them is needed") from None
 
 
-_NONE = Setting("", "", "", (), "", "", False)
+_NONE = Setting("", "", "", [], "", "", False)
 
 
 def _is_sequence(value: Any) -> bool:

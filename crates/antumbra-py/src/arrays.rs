@@ -68,5 +68,9 @@ pub fn columns(name: &str, view: &View<'_>, k: usize) -> PyResult<()> {
         View::Single(array) => array.ncols(),
         View::Double(array) => array.ncols(),
     };
-    if found == k { Ok(()) } else { Err(errors::value(format!("{name} has {found} columns: {k} are needed"))) }
+    if found == k {
+        Ok(())
+    } else {
+        Err(errors::value(format!("{name} has {found} columns: {k} are needed")))
+    }
 }

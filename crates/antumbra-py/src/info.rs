@@ -22,9 +22,11 @@ impl PyScene {
     /// What there is, for one line: (word, number), only what there is.
     fn counts(&self, py: Python<'_>) -> PyResult<Vec<(String, u64)>> {
         let scene = self.scene(py)?;
-        let mut all = vec![("triangle".to_string(), scene.triangle_count()), ("shape".into(), shapes(&scene))];
+        let mut all =
+            vec![("triangle".to_string(), scene.triangle_count()), ("shape".into(), shapes(&scene))];
         for light in lights(&scene) {
-            let word = if light.kind == "environment" { light.kind.into() } else { format!("{} light", light.kind) };
+            let word =
+                if light.kind == "environment" { light.kind.into() } else { format!("{} light", light.kind) };
             match all.iter_mut().find(|(known, _)| *known == word) {
                 Some((_, n)) => *n += 1,
                 None => all.push((word, 1)),
@@ -55,6 +57,7 @@ impl PyScene {
         out.set_item("masked_materials", masked)?;
         out.set_item("textures", scene.textures.len())?;
         out.set_item("texture_bytes", texture_bytes(&scene))?;
+        out.set_item("looks_wrong", scene.looks_wrong())?;
         Ok(out)
     }
 }

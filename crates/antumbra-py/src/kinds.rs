@@ -112,7 +112,9 @@ pub fn light(kind: &str, fields: &Fields) -> PyResult<Light> {
             let (center, normal) = (fields.vec3("center")?, fields.vec3("normal")?);
             Disk::new(center, normal, fields.number("radius")?, radiance()?).into()
         }
-        "Triangle" => Triangle::new(fields.vec3("a")?, fields.vec3("b")?, fields.vec3("c")?, radiance()?).into(),
+        "Triangle" => {
+            Triangle::new(fields.vec3("a")?, fields.vec3("b")?, fields.vec3("c")?, radiance()?).into()
+        }
         "Sphere" => Sphere::new(fields.vec3("center")?, fields.number("radius")?, radiance()?).into(),
         "Environment" => Environment::constant(radiance()?).into(),
         _ => return unknown("light", kind),

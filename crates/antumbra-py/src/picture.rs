@@ -87,7 +87,8 @@ impl Picture {
         let [h, w] = self.shape();
         let plane = |(name, channels, values): &(String, usize, Vec<f32>)| {
             let shape = if *channels == 1 { vec![h, w] } else { vec![h, w, *channels] };
-            let array = ArrayD::from_shape_vec(shape, values.clone()).map_err(|e| errors::value(e.to_string()))?;
+            let array =
+                ArrayD::from_shape_vec(shape, values.clone()).map_err(|e| errors::value(e.to_string()))?;
             Ok((name.clone(), array.into_pyarray(py)))
         };
         self.rendered.aovs.iter().map(plane).collect()
@@ -186,7 +187,9 @@ impl Picture {
         counts: (u32, u32, u64, u64, u32),
         look: (f32, bool),
     ) -> PyResult<Picture> {
-        let [height, width, _] = *pixels.as_array().shape() else { return Err(errors::value("pixels: (H, W, 3)")) };
+        let [height, width, _] = *pixels.as_array().shape() else {
+            return Err(errors::value("pixels: (H, W, 3)"));
+        };
         let (passes_done, passes, segments, rays, hash) = counts;
         let plane = |(name, array): (String, PyReadonlyArrayDyn<'_, f32>)| {
             let array = array.as_array();
@@ -240,7 +243,9 @@ pub fn read_picture<'py>(py: Python<'py>, path: &str) -> PyResult<Bound<'py, PyA
 /// Writes an (H, W, 3) float32 picture of linear colours as a PNG or EXR, whole or not at all.
 #[pyfunction]
 pub fn write_picture(py: Python<'_>, path: &str, pixels: PyReadonlyArray3<'_, f32>) -> PyResult<()> {
-    let [height, width, _] = *pixels.as_array().shape() else { return Err(errors::value("pixels: (H, W, 3)")) };
+    let [height, width, _] = *pixels.as_array().shape() else {
+        return Err(errors::value("pixels: (H, W, 3)"));
+    };
     let picture = file::Picture {
         width: width as u32,
         height: height as u32,

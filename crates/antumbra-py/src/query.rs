@@ -93,7 +93,8 @@ impl PyScene {
         normals: Option<Rows<'_>>,
         words: Words,
     ) -> PyResult<(Column<'py>, Column<'py>)> {
-        let estimated = self.estimate(py, &points, normals.as_ref(), &words, [1.0; 3], query::ambient_occlusion)?;
+        let estimated =
+            self.estimate(py, &points, normals.as_ref(), &words, [1.0; 3], query::ambient_occlusion)?;
         Ok((first(py, &estimated.values), first(py, &estimated.standard_error)))
     }
 
@@ -108,7 +109,10 @@ impl PyScene {
     ) -> PyResult<(Column<'py>, Column<'py>)> {
         let scene = self.scene(py)?;
         let number = light_number(&scene, light)?;
-        let ask = |scene: &Scene, queries: &[Query], settings: &Settings, watch: &mut dyn FnMut(Progress) -> Flow| {
+        let ask = |scene: &Scene,
+                   queries: &[Query],
+                   settings: &Settings,
+                   watch: &mut dyn FnMut(Progress) -> Flow| {
             query::visible_fraction(scene, queries, number, settings, watch)
         };
         let estimated = self.estimate(py, &points, normals.as_ref(), &words, [0.0; 3], ask)?;
@@ -124,12 +128,14 @@ impl PyScene {
         normals: Option<Rows<'_>>,
         u: Rows<'_>,
         words: Words,
-    ) -> PyResult<(Table<'py>, Table<'py>, Column<'py>, Table<'py>, Column<'py>, Bound<'py, PyArray1<u32>>)> {
+    ) -> PyResult<(Table<'py>, Table<'py>, Column<'py>, Table<'py>, Column<'py>, Bound<'py, PyArray1<u32>>)>
+    {
         let scene = self.scene(py)?;
         let settings = settings::parse(&words)?;
         let (queries, rows) = gather(&scene, &points, normals.as_ref())?;
         let (n, u) = (points.view(&scene)?.len(), u.view());
-        let numbers: Result<Vec<[f32; 3]>, String> = rows.iter().map(|i| unit(u.finite::<3>("u", *i)?, *i)).collect();
+        let numbers: Result<Vec<[f32; 3]>, String> =
+            rows.iter().map(|i| unit(u.finite::<3>("u", *i)?, *i)).collect();
         let numbers = numbers.map_err(errors::value)?;
         let drawn = py.detach(|| query::sample_light(&scene, &queries, &numbers, &settings));
         Ok((
@@ -173,7 +179,8 @@ impl PyScene {
         words: Words,
     ) -> PyResult<(Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<f64>>)> {
         let scene = self.scene(py)?;
-        let rows = render::camera_rays(&scene, &settings::parse(&words)?).map_err(|e| errors::scene(&e, self.file()))?;
+        let rows = render::camera_rays(&scene, &settings::parse(&words)?)
+            .map_err(|e| errors::scene(&e, self.file()))?;
         let array = |row: fn(&(Vec3, Vec3)) -> Vec3| {
             let doubles = rows.iter().flat_map(|r| row(r).to_array().map(f64::from)).collect();
             let made = Array2::from_shape_vec((rows.len(), 3), doubles);
@@ -251,7 +258,11 @@ fn batch<'a>(
     Ok(Batch { starts, name, ends, reach: reach.map(|r| r.as_array()) })
 }
 
-fn gather(scene: &Arc<Scene>, points: &Origins<'_>, normals: Option<&Rows<'_>>) -> PyResult<(Vec<Query>, Vec<usize>)> {
+fn gather(
+    scene: &Arc<Scene>,
+    points: &Origins<'_>,
+    normals: Option<&Rows<'_>>,
+) -> PyResult<(Vec<Query>, Vec<usize>)> {
     queries(points.view(scene)?, normals.map(Rows::view)).map_err(errors::value)
 }
 
@@ -284,7 +295,10 @@ fn light_number(scene: &Scene, light: &str) -> PyResult<LightId> {
         known.dedup();
         known.truncate(20);
         let listed = if known.is_empty() { String::new() } else { format!(": {}", known.join(", ")) };
-        errors::choice(format!("there is no light \"{light}\" among the {} of the scene{listed}", names.slots.len()))
+        errors::choice(format!(
+            "there is no light \"{light}\" among the {} of the scene{listed}",
+            names.slots.len()
+        ))
     })
 }
 

@@ -89,7 +89,8 @@ impl Receivers {
         row: impl Fn(usize) -> Option<[f64; 3]> + Sync,
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let values = py.detach(|| (0..self.len()).flat_map(|i| row(i).unwrap_or([f64::NAN; 3])).collect());
-        let array = Array2::from_shape_vec((self.len(), 3), values).map_err(|e| errors::value(e.to_string()))?;
+        let array =
+            Array2::from_shape_vec((self.len(), 3), values).map_err(|e| errors::value(e.to_string()))?;
         Ok(array.into_pyarray(py))
     }
 }

@@ -171,7 +171,13 @@ impl PyScene {
     }
 
     /// Adds a shape.
-    fn add_shape(&self, name: &str, kind: &str, fields: HashMap<String, Vec<f64>>, material: u32) -> PyResult<()> {
+    fn add_shape(
+        &self,
+        name: &str,
+        kind: &str,
+        fields: HashMap<String, Vec<f64>>,
+        material: u32,
+    ) -> PyResult<()> {
         let made = kinds::shape(kind, &Fields(fields))?;
         self.change(|builder| {
             match made {

@@ -30,7 +30,7 @@ class Verb(click.Command):
     def __init__(
         self,
         name: str,
-        run: Callable[..., None],
+        run: Callable[..., int],
         *,
         examples: Sequence[tuple[str, str]],
         arguments: Sequence[tuple[str, bool]],
@@ -72,7 +72,8 @@ class Verb(click.Command):
             *textwrap.wrap(_first_paragraph(self.help), width, initial_indent="  ", subsequent_indent="  "),
             "",
         ]
-        lines += [f"  {command:<50}  {shows}".rstrip() for command, shows in self.examples]
+        column = max(len(command) for command, shows in self.examples if shows)
+        lines += [f"  {command:<{column}}   {shows}".rstrip() for command, shows in self.examples]
         for group in GROUPS:
             options = [p for p in self.params if isinstance(p, Option) and p.group == group]
             if options:

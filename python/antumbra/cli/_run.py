@@ -83,7 +83,8 @@ def _overview() -> str:
     lines = ["Usage: antumbra VERB … [OPTIONS]", "", "  Direct light and shadow of a scene.", ""]
     for each in _in_order():
         places = " ".join(p.metavar or "" for p in each.params if isinstance(p, click.Argument))
-        lines.append(f"  antumbra {each.name} {places}".ljust(32) + _first_paragraph(each.help).rstrip("."))
+        does = _first_paragraph(each.help).split(":")[0].rstrip(".")
+        lines.append(f"  antumbra {each.name} {places}".ljust(26) + does)
     lines += ["", "  antumbra VERB --help says more about each; antumbra --version, which one this is."]
     return "\n".join(lines)
 
@@ -99,7 +100,7 @@ def _usage(problem: click.UsageError) -> tuple[str, str]:
         return f"{problem.param.metavar} is missing", hint
     if isinstance(problem, click.BadOptionUsage):
         return f"{problem.option_name} needs a value", hint
-    return problem.format_message(), hint
+    return problem.format_message(), ""
 
 
 def _told(problem: SceneError | OptionError) -> tuple[str, str]:

@@ -47,8 +47,10 @@ def run(
     except RenderStopped as stopped:
         return _stopped(stopped.image, path)
     image.save(path)
-    if not watched and not quiet:
-        print(head, file=sys.stderr)
+    if not quiet:
+        _say.messages("", image.messages)
+        if not watched:
+            print(head, file=sys.stderr)
     print(_ending(image, path))
     return 0
 
@@ -90,8 +92,7 @@ def _check(given: dict[str, str], path: Path) -> None:
     try:
         _core.check_writable(str(path))
     except OSError as problem:
-        reason = (problem.strerror or str(problem)).lower()
-        raise click.UsageError(f"{path} cannot be written ({reason}). Nothing was rendered.") from problem
+        raise click.UsageError(f"{problem}. Nothing was rendered.") from problem
 
 
 def _facts(scene: Scene) -> str:

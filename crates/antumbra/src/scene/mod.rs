@@ -11,6 +11,7 @@ mod parts;
 #[allow(clippy::module_inception)]
 mod scene;
 mod surface;
+mod suspect;
 
 pub use areas::{SurfaceAreas, SurfacePoint};
 pub use builder::{Body, Mesh, MeshId, Object, SceneBuilder};
