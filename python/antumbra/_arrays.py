@@ -38,7 +38,7 @@ def matching(name: str, value: Any, other: str, count: int, columns: int = 3) ->
     """Rows, one for each of the `count` rows of `other`; a single vector stands for all."""
     array = numbers(name, value)
     if array.shape == (columns,) and columns != count:
-        return np.broadcast_to(array, (count, columns))
+        return cast("Array", np.broadcast_to(array, (count, columns)))
     array = rows(name, array, columns)
     if len(array) != count:
         raise ValueError(

@@ -7,9 +7,9 @@ import re
 
 import numpy as np
 import pytest
-from conftest import command
 
 import antumbra as am
+from conftest import command
 
 SMALL = ["--size", "24x16", "--viewing-rays", "4"]
 ENDING = re.compile(

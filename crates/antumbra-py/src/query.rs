@@ -8,7 +8,7 @@ use antumbra::math::Vec3;
 use antumbra::query::{self, Estimated, RayHit};
 use antumbra::render;
 use antumbra::scene::Scene;
-use antumbra::schedule::{Flow, Progress};
+use antumbra::schedule::Flow;
 use antumbra::sensor::Query;
 use antumbra::settings::Settings;
 use antumbra::trace::SegmentBuffer;
@@ -81,7 +81,10 @@ impl PyScene {
         normals: Option<Rows<'_>>,
         words: Words,
     ) -> PyResult<(Table<'py>, Table<'py>)> {
-        let estimated = self.estimate(py, &points, normals.as_ref(), &words, [0.0; 3], query::irradiance)?;
+        let estimated =
+            self.estimate(py, &points, normals.as_ref(), &words, [0.0; 3], |s, q, set, look| {
+                query::irradiance(s, q, set, &mut |_| look())
+            })?;
         Ok((table(py, &estimated.values)?, table(py, &estimated.standard_error)?))
     }
 
@@ -94,7 +97,9 @@ impl PyScene {
         words: Words,
     ) -> PyResult<(Column<'py>, Column<'py>)> {
         let estimated =
-            self.estimate(py, &points, normals.as_ref(), &words, [1.0; 3], query::ambient_occlusion)?;
+            self.estimate(py, &points, normals.as_ref(), &words, [1.0; 3], |s, q, set, look| {
+                query::ambient_occlusion(s, q, set, &mut |_| look())
+            })?;
         Ok((first(py, &estimated.values), first(py, &estimated.standard_error)))
     }
 
@@ -109,13 +114,10 @@ impl PyScene {
     ) -> PyResult<(Column<'py>, Column<'py>)> {
         let scene = self.scene(py)?;
         let number = light_number(&scene, light)?;
-        let ask = |scene: &Scene,
-                   queries: &[Query],
-                   settings: &Settings,
-                   watch: &mut dyn FnMut(Progress) -> Flow| {
-            query::visible_fraction(scene, queries, number, settings, watch)
-        };
-        let estimated = self.estimate(py, &points, normals.as_ref(), &words, [0.0; 3], ask)?;
+        let estimated =
+            self.estimate(py, &points, normals.as_ref(), &words, [0.0; 3], |s, q, set, look| {
+                query::visible_fraction(s, q, number, set, &mut |_| look())
+            })?;
         Ok((first(py, &estimated.values), first(py, &estimated.standard_error)))
     }
 
@@ -199,14 +201,14 @@ impl PyScene {
         normals: Option<&Rows<'_>>,
         words: &[(String, String)],
         elsewhere: [f32; 3],
-        ask: impl Fn(&Scene, &[Query], &Settings, &mut dyn FnMut(Progress) -> Flow) -> Estimated + Send + Sync,
+        ask: impl Fn(&Scene, &[Query], &Settings, &mut dyn FnMut() -> Flow) -> Estimated + Send + Sync,
     ) -> PyResult<Estimated> {
         let scene = self.scene(py)?;
         let settings = settings::parse(words)?;
         let (queries, rows) = gather(&scene, points, normals)?;
         let n = points.view(&scene)?.len();
         let mut raised = None;
-        let estimated = py.detach(|| ask(&scene, &queries, &settings, &mut |_| look(&mut raised)));
+        let estimated = py.detach(|| ask(&scene, &queries, &settings, &mut || look(&mut raised)));
         match raised {
             Some(e) => Err(e),
             None => Ok(Estimated {
