@@ -72,13 +72,22 @@ fn all_triangles(
     let Numbers::Bytes(rest, _) = *numbers else { return Ok(None) };
     const ROW: usize = 13;
     let Some(rows) = rest.get(..e.count.saturating_mul(ROW)) else { return Ok(None) };
-    if !plain || encoding != Encoding::Little || rows.chunks_exact(ROW).any(|r| r[0] != 3) {
+    if !plain || encoding != Encoding::Little || rows.first().is_some_and(|n| *n != 3) {
         return Ok(None);
     }
-    let triangle = |r: &[u8]| bytemuck::pod_read_unaligned::<[u32; 3]>(&r[1..]);
+    // One pass converts, notices any other count of corners, and finds the largest index.
+    let (mut other, mut largest) = (0, 0);
+    let triangle = |r: &[u8]| {
+        let t: [u32; 3] = bytemuck::pod_read_unaligned(&r[1..]);
+        other |= r[0] ^ 3;
+        largest = t[0].max(t[1]).max(t[2]).max(largest);
+        t
+    };
     let triangles: Vec<[u32; 3]> = rows.chunks_exact(ROW).map(triangle).collect();
+    if other != 0 {
+        return Ok(None);
+    }
     // Negative indices are the largest of all as unsigned numbers.
-    let largest = triangles.as_flattened().iter().fold(0, |m, i| m.max(*i));
     if largest as usize >= vertices && e.count > 0 {
         let row = triangles.iter().position(|t| t.contains(&largest)).unwrap_or(0);
         return Err(format!("face {row} has the index {} of {vertices} vertices", largest as i32));
