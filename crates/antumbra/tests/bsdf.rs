@@ -1,8 +1,8 @@
 //! Laws of every kind of reflection, walked through `Bsdf::examples()`.
 
-use antumbra::bsdf::Bsdf;
+use antumbra::bsdf::{Bsdf, Mirror};
 use antumbra::math::hash::{hash3, unit_f32};
-use antumbra::math::{Local, Vec3, real};
+use antumbra::math::{Local, Rgb, Vec3, real};
 
 /// The direction of polar cosine `cos` and azimuth `phi`.
 fn direction(cos: f32, phi: f32) -> Local {
@@ -84,5 +84,45 @@ fn samples_carry_what_eval_and_pdf_say() {
                 }
             }
         }
+    }
+}
+
+/// Any bits that make a direction: from the pole to the horizon, with tiny and subnormal components.
+fn any_direction(i: u32, seed: u32) -> Local {
+    let part = |k: u32| {
+        let h = hash3(i, k, seed);
+        let scale = [1.0, 1e-3, 1e-7, 1e-20, 1e-40, 0.0][(h % 6) as usize];
+        (2.0 * unit_f32(hash3(i, k, seed + 1)) - 1.0) * scale
+    };
+    Local(Vec3::new(part(0), part(1), part(2).abs()).normalize_or(Vec3::Z))
+}
+
+#[test]
+fn no_direction_and_no_number_breaks_a_kind() {
+    let ends = [0.0, 1e-30, 0.5, real::ONE_MINUS];
+    for (name, bsdf) in Bsdf::examples() {
+        for i in 0..20_000 {
+            let (wo, wi) = (any_direction(i, 1), any_direction(i, 3));
+            let (f, p) = (bsdf.eval(wo, wi), bsdf.pdf(wo, wi));
+            assert!(f.is_finite() && p.is_finite(), "{name} {bsdf:?} {wo:?} {wi:?}: {f:?} {p}");
+            let u = [0, 1, 2].map(|k| ends[(hash3(i, k, 5) % 4) as usize]);
+            let Some(s) = bsdf.sample(wo, u) else { continue };
+            let sane = s.throughput.is_finite() && s.density.weight().is_finite() && s.wi.0.is_finite();
+            assert!(sane && s.wi.cos() > 0.0, "{name} {bsdf:?} {wo:?} {u:?}: {s:?}");
+        }
+    }
+}
+
+#[test]
+fn a_mirror_answers_with_one_direction() {
+    let bsdf = Bsdf::Mirror(Mirror { reflectance: Rgb([0.9, 0.5, 0.1]) });
+    for cos in COSINES {
+        let wo = direction(cos, 2.0);
+        for i in 0..10 {
+            let s = bsdf.sample(wo, numbers(i, 3)).expect("a mirror reflects from everywhere above");
+            assert_eq!((s.wi, s.throughput), (wo.mirrored(), Rgb([0.9, 0.5, 0.1])));
+            assert!(s.density.is_delta());
+        }
+        assert!(bsdf.eval(wo, wo.mirrored()).is_black() && bsdf.pdf(wo, wo.mirrored()) == 0.0);
     }
 }

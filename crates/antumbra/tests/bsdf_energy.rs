@@ -1,0 +1,121 @@
+//! Energy of every kind of reflection: under equal light from everywhere (the white furnace) a surface gives back
+//! ∫ f cos dω_i, never more than 1, and exactly what its model promises where that is known.
+
+use antumbra::bsdf::{Bsdf, BsdfKind, MetallicRoughness};
+use antumbra::math::stats::SphereBins;
+use antumbra::math::{Local, Rgb, Vec3, real};
+
+/// Polar cosines from straight on to a tenth of a degree above the horizon.
+const COSINES: [f32; 9] = [1.0, 0.95, 0.8, 0.5, 0.3, 0.1, 0.03, 0.01, 0.002];
+
+/// The quadrature's tolerance over all its bins, with f32 inside.
+const QUADRATURE: f64 = 1e-3;
+/// Largest error of the tabulated albedo (stated in `bsdf/ggx_albedo.rs`): where μ ≥ 0.01, and nearer the horizon.
+fn table(cos: f32) -> f64 {
+    if cos >= 0.01 { 1e-3 } else { 2.5e-3 }
+}
+
+fn outgoing(cos: f32) -> Local {
+    Local(Vec3::new(real::safe_sqrt((1.0 - cos) * (1.0 + cos)), 0.0, cos))
+}
+
+/// The share of light reflected towards a direction of this cosine: a single direction, or ∫ f cos dω.
+fn albedo(bsdf: &Bsdf, cos: f32, component: usize) -> f64 {
+    let wo = outgoing(cos);
+    if bsdf.is_delta() {
+        return bsdf.sample(wo, [0.5; 3]).map_or(0.0, |s| s.throughput.0[component].into());
+    }
+    let mut edges = vec![0.0];
+    edges.extend((0..13).map(|k| std::f64::consts::PI * real::pow(0.5, f64::from(12 - k))));
+    let bins = SphereBins::new(wo.mirrored().0, edges, 8);
+    let f = |d: Vec3| f64::from(bsdf.eval(wo, Local(d)).0[component] * d.z.max(0.0));
+    let shares = bins.integrate(1e-5, f);
+    shares[..bins.rest()].iter().sum()
+}
+
+#[test]
+fn no_surface_gives_back_more_than_it_gets() {
+    for (name, bsdf) in Bsdf::examples() {
+        for cos in COSINES {
+            for c in 0..3 {
+                let a = albedo(&bsdf, cos, c);
+                let most = 1.0 + QUADRATURE + table(cos);
+                assert!((0.0..=most).contains(&a), "{name} {bsdf:?} cos {cos}: {a}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_white_dielectric_is_a_white_furnace() {
+    // What the interface does not reflect, a white base does: albedo 1 at every roughness and angle.
+    for roughness in [0.0, 0.15, 0.3, 0.6, 1.0] {
+        let bsdf = Bsdf::MetallicRoughness(MetallicRoughness::new(Rgb::WHITE, 0.0, roughness));
+        for cos in COSINES {
+            let a = albedo(&bsdf, cos, 0);
+            let off = (a - 1.0).abs();
+            assert!(off <= QUADRATURE + table(cos), "roughness {roughness} cos {cos}: {a}");
+        }
+    }
+}
+
+#[test]
+fn white_metal_loses_only_what_bounces_between_facets() {
+    let white = |roughness| Bsdf::MetallicRoughness(MetallicRoughness::new(Rgb::WHITE, 1.0, roughness));
+    // Smooth: facets of slope 10⁻³ shade each other only at angles of that order.
+    for cos in COSINES.into_iter().filter(|&c| c >= 0.1) {
+        let a = albedo(&white(0.0), cos, 0);
+        assert!((a - 1.0).abs() <= QUADRATURE, "cos {cos}: {a}");
+    }
+    // α = 1, straight on: D = 1/π, G₂/(4 μ_o μ_i) = 1/(2 (1 + μ)), so albedo = ∫ μ/(1 + μ) dμ = 1 − ln 2.
+    let a = albedo(&white(1.0), 1.0, 0);
+    assert!((a - (1.0 - std::f64::consts::LN_2)).abs() <= QUADRATURE, "{a}");
+    // The loss grows with roughness.
+    let straight: Vec<f64> =
+        [0.0, 0.2, 0.4, 0.6, 0.8, 1.0].iter().map(|&r| albedo(&white(r), 0.9, 0)).collect();
+    assert!(straight.windows(2).all(|w| w[1] <= w[0] + 2.0 * QUADRATURE), "{straight:?}");
+}
+
+#[test]
+fn a_smooth_dielectric_reflects_by_schlick() {
+    // Black base: only the interface, F0 = 0.04 straight on.
+    let bsdf = Bsdf::MetallicRoughness(MetallicRoughness::new(Rgb::BLACK, 0.0, 0.0));
+    for cos in [1.0f32, 0.8, 0.5, 0.2] {
+        let expected = 0.04 + 0.96 * f64::from(1.0 - cos).powi(5);
+        let a = albedo(&bsdf, cos, 0);
+        // A lobe of 10⁻³ rad blurs Schlick's curve by its second derivative, far below the quadrature.
+        assert!((a - expected).abs() <= QUADRATURE, "cos {cos}: {a} {expected}");
+    }
+}
+
+#[test]
+fn albedo_is_the_mean_over_directions() {
+    // 2 ∫ albedo(μ) μ dμ by midpoints in μ² (every direction of equal light counts the same).
+    let n = 24;
+    for (name, bsdf) in Bsdf::examples() {
+        for c in [0, 2] {
+            let mean: f64 =
+                (0..n).map(|k| albedo(&bsdf, ((k as f32 + 0.5) / n as f32).sqrt(), c) / f64::from(n)).sum();
+            let said = f64::from(bsdf.albedo().0[c]);
+            // Midpoints over 24 strips of a curve that rises by at most 1 within the first two: 1/24².
+            let tolerance = QUADRATURE + table(1.0) + 1.0 / 576.0;
+            assert!((mean - said).abs() <= tolerance, "{name} {bsdf:?}: {mean} {said}");
+        }
+    }
+}
+
+#[test]
+fn any_factor_is_taken_into_range() {
+    let odd = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, -1.0, 0.0, -0.0, 1.0, 2.0, 1e-40];
+    for m in odd {
+        for r in odd {
+            for b in odd {
+                let bsdf = MetallicRoughness::new(Rgb::grey(b), m, r);
+                let wo = outgoing(0.3);
+                let f = bsdf.eval(wo, outgoing(0.4));
+                assert!(f.is_finite() && bsdf.albedo().is_finite(), "{b} {m} {r}: {f:?}");
+                assert!(bsdf.albedo().max() <= 1.0 + 1e-6 && bsdf.pdf(wo, wo).is_finite());
+            }
+        }
+    }
+}

@@ -1,0 +1,93 @@
+//! Statistics of every kind of reflection, walked through `Bsdf::examples()`: χ² of `sample` against `pdf`, the mean
+//! throughput against the integral of `eval`, and the energy of both. Seeds are fixed; each test's α is 0.001, shared
+//! among its comparisons by Šidák's rule.
+
+use antumbra::bsdf::Bsdf;
+use antumbra::math::hash::{hash3, unit_f32};
+use antumbra::math::stats::{SphereBins, chi_square_test, normal_two_sided, sidak};
+use antumbra::math::{Local, Vec3, real};
+
+const ALPHA: f64 = 1e-3;
+const COSINES: [f32; 5] = [1.0, 0.9, 0.5, 0.1, 0.02];
+
+/// Error that each integral over the sphere may have: bins × their tolerance, and f32 inside.
+const QUADRATURE: f64 = 1e-3;
+
+fn outgoing(cos: f32) -> Local {
+    let (r, phi) = (real::safe_sqrt((1.0 - cos) * (1.0 + cos)), 0.7);
+    Local(Vec3::new(r * real::cosf(phi), r * real::sinf(phi), cos))
+}
+
+fn numbers(i: u32, seed: u32) -> [f32; 3] {
+    [0, 1, 2].map(|k| unit_f32(hash3(i, k, seed)))
+}
+
+/// Rings about the mirrored direction whose widths double, from half the sharpest lobe outwards.
+fn bins(wo: Local) -> SphereBins {
+    let mut edges = vec![0.0];
+    edges.extend((0..13).map(|k| std::f64::consts::PI * real::pow(0.5, f64::from(12 - k))));
+    SphereBins::new(wo.mirrored().0, edges, 8)
+}
+
+fn integral(wo: Local, f: impl Fn(Local) -> f32) -> f64 {
+    let all = bins(wo).integrate(1e-5, |d| f64::from(f(Local(d))));
+    all[..all.len() - 1].iter().sum()
+}
+
+/// ∫ f cos dω of one component.
+fn reflected(bsdf: &Bsdf, wo: Local, component: usize) -> f64 {
+    integral(wo, |wi| bsdf.eval(wo, wi).0[component] * wi.cos().max(0.0))
+}
+
+/// Every example that spreads light, from every cosine.
+fn cases() -> Vec<(&'static str, Bsdf, Local)> {
+    let spread = Bsdf::examples().into_iter().filter(|(_, b)| !b.is_delta());
+    spread.flat_map(|(name, b)| COSINES.map(|c| (name, b, outgoing(c)))).collect()
+}
+
+#[test]
+fn samples_follow_the_pdf() {
+    let n = 40_000;
+    let cases = cases();
+    let least = sidak(ALPHA, cases.len());
+    for (case, (name, bsdf, wo)) in cases.iter().enumerate() {
+        let bins = bins(*wo);
+        let shares = bins.integrate(1e-5, |d| f64::from(bsdf.pdf(*wo, Local(d))));
+        let expected: Vec<f64> = shares.iter().map(|e| (e * f64::from(n)).max(0.0)).collect();
+        let observed = bins.count(n, |i| bsdf.sample(*wo, numbers(i, case as u32)).map(|s| s.wi.0));
+        let found = chi_square_test(&observed, &expected);
+        assert!(found.p >= least, "{name} {bsdf:?} {wo:?}: {found:?}");
+    }
+}
+
+#[test]
+fn the_pdf_integrates_to_at_most_one() {
+    for (name, bsdf, wo) in cases() {
+        let total = integral(wo, |wi| bsdf.pdf(wo, wi));
+        assert!(total <= 1.0 + QUADRATURE && total > 0.3, "{name} {bsdf:?} {wo:?}: {total}");
+    }
+}
+
+#[test]
+fn mean_throughput_is_what_eval_reflects() {
+    let n = 40_000u32;
+    let cases = cases();
+    let least = sidak(ALPHA, 3 * cases.len());
+    for (case, (name, bsdf, wo)) in cases.iter().enumerate() {
+        for c in 0..3 {
+            let mut sums = (0.0, 0.0);
+            for i in 0..n {
+                let draw = bsdf.sample(*wo, numbers(i, 1000 + case as u32));
+                let t = f64::from(draw.map_or(0.0, |s| s.throughput.0[c]));
+                sums = (sums.0 + t, sums.1 + t * t);
+            }
+            let n = f64::from(n);
+            let mean = sums.0 / n;
+            let variance = (sums.1 / n - mean * mean).max(0.0) / (n - 1.0);
+            let truth = reflected(bsdf, *wo, c);
+            let error = (variance + QUADRATURE * QUADRATURE / 9.0).sqrt();
+            let p = normal_two_sided((mean - truth) / error);
+            assert!(p >= least, "{name} {bsdf:?} {wo:?}: {mean} ± {error}, {truth}");
+        }
+    }
+}
