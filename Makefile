@@ -14,7 +14,7 @@ help: ## this list
 
 demo: $(VENV)/.ok ## render a first picture
 	@mkdir -p pictures
-	@$(BIN)/antumbra render pillars -o pictures/pillars.png
+	@$(BIN)/antumbra render antumbra -o pictures/antumbra.png
 
 test: $(VENV)/.dev ## every test, Rust and Python
 	@tools/run_tests.sh
