@@ -174,6 +174,12 @@ impl Bits {
         self.words[i / 64] |= 1 << (i % 64);
     }
 
+    /// Sets bits 64·`k` … 64·`k` + 63 at once.
+    #[inline]
+    pub(crate) fn set_word(&mut self, k: usize, bits: u64) {
+        self.words[k] = bits;
+    }
+
     /// Number of set bits.
     pub fn count(&self) -> usize {
         self.words.iter().map(|w| w.count_ones() as usize).sum()

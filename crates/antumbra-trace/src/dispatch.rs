@@ -2,7 +2,7 @@
 
 use fearless_simd::{Level, Simd, dispatch};
 
-use crate::traverse::{Asking, Masks, Opaque};
+use crate::traverse::{Asking, Lines, Masks, Opaque};
 use crate::walk;
 use crate::world::World;
 use crate::{Bits, Hits, Passes, Segments, Visibility};
@@ -132,17 +132,23 @@ impl<P: Passes> Visibility for Masked<'_, P> {
 #[inline(always)]
 fn occluded<S: Simd>(simd: S, world: &World, segments: &Segments<'_>, masks: &impl Masks, out: &mut Bits) {
     out.reset(segments.len());
-    for i in 0..segments.len() {
-        if walk::occluded(simd, world, segments, i, masks) {
-            out.set(i);
+    let lines = Lines::of(segments);
+    for word in 0..segments.len().div_ceil(64) {
+        let mut bits = 0;
+        for i in 64 * word..segments.len().min(64 * word + 64) {
+            if walk::occluded(simd, world, segments, lines.line(i), i, masks) {
+                bits |= 1 << (i % 64);
+            }
         }
+        out.set_word(word, bits);
     }
 }
 
 #[inline(always)]
 fn nearest<S: Simd>(simd: S, world: &World, rays: &Segments<'_>, masks: &impl Masks, out: &mut Hits) {
     out.reset(rays.len());
+    let lines = Lines::of(rays);
     for i in 0..rays.len() {
-        walk::nearest(simd, world, rays, i, masks, out);
+        walk::nearest(simd, world, rays, lines.line(i), i, masks, out);
     }
 }

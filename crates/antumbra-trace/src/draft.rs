@@ -195,9 +195,8 @@ impl Draft<'_> {
             let (Some(map), Some(object)) = (instance.transform, &objects[geometry]) else { continue };
             // A map without inverse makes what it places invisible.
             let Some(object_from_world) = map.inverse() else { continue };
-            let count = self.geometries[geometry].len() as u32;
             let (base, masked) = (self.base[k], instance.masked);
-            let place = Place { geometry, base, count, masked, object_from_world };
+            let place = Place { geometry, base, masked, object_from_world };
             places.push((place, map, object.tree().bounds));
         }
         PlaceTree::new(places, self.options, self.workers)

@@ -17,8 +17,6 @@ pub(crate) struct Place {
     pub geometry: usize,
     /// World number of its primitive 0.
     pub base: PrimId,
-    /// Its primitives.
-    pub count: u32,
     /// Its hits are asked back.
     pub masked: bool,
     /// The stored inverse: the law's map (LAW §6).

@@ -10,16 +10,16 @@ use crate::traverse::{
 use crate::world::{Object, World};
 use crate::{Hits, NO_PRIM, Segments};
 
-/// Whether entry `i` is blocked.
+/// Whether entry `i`, rounded to `line`, is blocked.
 #[inline(always)]
 pub(crate) fn occluded<S: Simd, M: Masks>(
     simd: S,
     world: &World,
     segments: &Segments<'_>,
+    line: FastLine,
     i: usize,
     masks: &M,
 ) -> bool {
-    let line = FastLine::of(segments, i);
     let ask = Ask::world(segments, i, masks);
     if !world.triangles.tree.is_empty() && any_triangle::<S, M, false>(simd, &world.triangles, &line, &ask) {
         return true;
@@ -33,17 +33,17 @@ pub(crate) fn occluded<S: Simd, M: Masks>(
     )
 }
 
-/// The closest hit of entry `i`, written to `out`.
+/// The closest hit of entry `i`, rounded to `line`, written to `out`.
 #[inline(always)]
 pub(crate) fn nearest<S: Simd, M: Masks>(
     simd: S,
     world: &World,
     segments: &Segments<'_>,
+    line: FastLine,
     i: usize,
     masks: &M,
     out: &mut Hits,
 ) {
-    let line = FastLine::of(segments, i);
     let ask = Ask::world(segments, i, masks);
     let mut best = Best::none(line.tmax);
     if !world.triangles.tree.is_empty() {
@@ -92,9 +92,9 @@ fn nearest_triangle<S: Simd, M: Masks, const PLACED: bool>(
     best: &mut Best,
 ) {
     if of.limits.hold(line) {
-        let mut visit = NearestTriangle::<S, M, PLACED>::new(simd, of, ask, line, *best);
+        let mut visit = NearestTriangle::<S, M, PLACED>::new(simd, of, ask, line, best);
         nearest_hit(simd, &of.tree.nodes, line, &mut visit);
-        *best = visit.best();
+        visit.finish(simd);
     } else {
         nearest_triangle_exact(of, ask, best, &mut NotCounted);
     }

@@ -191,17 +191,17 @@ impl Scene<'_> {
         }
     }
 
-    /// Fills `out` with the closest primitive of each entry, `u32::MAX` for none.
-    pub fn nearest(&self, asked: &Segments<'_>, out: &mut [u32]) {
+    /// Fills `out` with the closest primitive of each entry and its t; `u32::MAX` for none.
+    pub fn nearest(&self, asked: &Segments<'_>, out: &mut [(u32, f32)]) {
         let f = self.embree.call.rtcIntersect1;
         let mut ray = blank();
-        for (i, prim) in out.iter_mut().enumerate() {
+        for (i, hit) in out.iter_mut().enumerate() {
             aim(&mut ray, asked, i);
             ray.geometry = u32::MAX;
             ray.prim = u32::MAX;
             // SAFETY: as above; RayHit holds RTCRayHit and room to spare.
             unsafe { f(self.scene, &mut ray, std::ptr::null_mut()) };
-            *prim = ray.prim;
+            *hit = (ray.prim, ray.tfar);
         }
     }
 }

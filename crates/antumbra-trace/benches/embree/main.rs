@@ -10,7 +10,8 @@ mod rays;
 mod scenes;
 
 use antumbra_trace::{
-    Bits, BuildOptions, Geometry, Hits, Instance, Pool, SimdLevel, Triangles, Visibility, World,
+    Bits, BuildOptions, Geometry, Hits, Instance, NO_PRIM, Pool, SimdLevel, Triangles, Visibility, Work,
+    World,
 };
 use library::{Embree, Scene as Peer, now};
 use rays::Class;
@@ -97,60 +98,90 @@ fn race(embree: &Embree, scene: &scenes::Scene, lines: &mut Vec<String>) {
     }
 }
 
+/// What one class took: ratios against both peers, their answers, our rate and work.
+struct Result {
+    /// Peers' time over ours, by round: default, robust.
+    ratios: [Vec<f64>; 2],
+    /// Our rate by round [Mray/s].
+    rates: Vec<f64>,
+    /// Answers in which they differ from ours.
+    differ: [usize; 2],
+    /// Share of blocked entries.
+    blocked: f64,
+    /// Boxes and primitives that an entry visits in our tree.
+    work: [f64; 2],
+}
+
 /// Ours and both peers in turn on one class.
-fn measure(scene: &str, world: &World, peers: &[Peer<'_>; 2], class: &Class) -> String {
+fn run(world: &World, peers: &[Peer<'_>; 2], class: &Class) -> Result {
     let asked = class.asked.as_segments();
     let n = asked.len();
     let (mut bits, mut hits) = (Bits::default(), Hits::default());
-    let (mut blocked, mut prims) = (vec![false; n], vec![0u32; n]);
-    let mut ours = Vec::new();
-    let mut ratios = [Vec::new(), Vec::new()];
-    let mut differ = [0, 0];
+    let (mut blocked, mut prims) = (vec![false; n], vec![(0u32, 0f32); n]);
+    let mut out =
+        Result { ratios: Default::default(), rates: vec![], differ: [0; 2], blocked: 0.0, work: [0.0; 2] };
     for round in 0..=ROUNDS {
-        let time = timed(|| {
-            if class.nearest { world.nearest(asked, &mut hits) } else { world.occluded(asked, &mut bits) }
+        let ours = timed(|| match class.nearest {
+            true => world.nearest(asked, &mut hits),
+            false => world.occluded(asked, &mut bits),
         });
         for (k, peer) in peers.iter().enumerate() {
-            let theirs = timed(|| {
-                if class.nearest {
-                    peer.nearest(&asked, &mut prims);
-                } else {
-                    peer.occluded(&asked, &mut blocked);
-                }
+            let theirs = timed(|| match class.nearest {
+                true => peer.nearest(&asked, &mut prims),
+                false => peer.occluded(&asked, &mut blocked),
             });
-            differ[k] = (0..n)
-                .filter(|&i| if class.nearest { hits.prim[i] != prims[i] } else { bits.get(i) != blocked[i] })
-                .count();
+            // Two triangles may lie on each other: another one at the same t is no other answer.
+            let other = |i: usize| {
+                let (prim, t) = (prims[i].0, f64::from(prims[i].1));
+                let far = (hits.t[i] - t).abs() > 1e-5 * t;
+                hits.prim[i] != prim && (far || hits.prim[i] == NO_PRIM || prim == NO_PRIM)
+            };
+            let differs = |i: &usize| if class.nearest { other(*i) } else { bits.get(*i) != blocked[*i] };
+            out.differ[k] = (0..n).filter(differs).count();
             if round > 0 {
-                ratios[k].push(theirs / time);
+                out.ratios[k].push(theirs / ours);
             }
         }
         if round > 0 {
-            ours.push(n as f64 / time / 1e6);
+            out.rates.push(n as f64 / ours / 1e6);
         }
     }
-    let rate = median(&ours);
-    let share = if class.nearest { 0.0 } else { bits.count() as f64 / n as f64 };
-    let [a, b] = [0, 1].map(|k| (median(&ratios[k]), spread(&ratios[k])));
+    let mut work = Vec::new();
+    if class.nearest {
+        world.nearest_counted(asked, &mut hits, &mut work);
+    } else {
+        world.occluded_counted(asked, &mut bits, &mut work);
+        out.blocked = bits.count() as f64 / n as f64;
+    }
+    let mean = |of: fn(&Work) -> u32| work.iter().map(|w| f64::from(of(w))).sum::<f64>() / n as f64;
+    out.work = [mean(|w| w.boxes), mean(|w| w.primitives)];
+    out
+}
+
+/// Prints a class and says it in JSON.
+fn measure(scene: &str, world: &World, peers: &[Peer<'_>; 2], class: &Class) -> String {
+    let result = run(world, peers, class);
+    let (n, rate) = (class.asked.len(), median(&result.rates));
+    let [a, b] = [0, 1].map(|k| (median(&result.ratios[k]), spread(&result.ratios[k])));
+    let ([boxes, primitives], [c, d]) = (result.work, result.differ);
     println!(
         "  {:<15} {n:>7} rays, {:>3.0} % blocked: {rate:6.2} Mray/s; Embree ×{:.2} ({:.2}–{:.2}), robust ×{:.2} \
-         ({:.2}–{:.2}); answers differ {} / {}",
+         ({:.2}–{:.2}); answers differ {c} / {d}; {boxes:.0} boxes, {primitives:.1} primitives",
         class.name,
-        100.0 * share,
+        100.0 * result.blocked,
         a.0,
         a.1.0,
         a.1.1,
         b.0,
         b.1.0,
-        b.1.1,
-        differ[0],
-        differ[1]
+        b.1.1
     );
     format!(
         "  {{\"scene\": \"{scene}\", \"class\": \"{}\", \"rays\": {n}, \"mrays_per_second\": {rate:.3}, \
-         \"speed_over_embree\": {:.3}, \"speed_over_embree_robust\": {:.3}, \"spread\": [{:.3}, {:.3}, {:.3}, {:.3}], \
-         \"answers_differ\": [{}, {}]}}",
-        class.name, a.0, b.0, a.1.0, a.1.1, b.1.0, b.1.1, differ[0], differ[1]
+         \"speed_over_embree\": {:.3}, \"speed_over_embree_robust\": {:.3}, \
+         \"spread\": [{:.3}, {:.3}, {:.3}, {:.3}], \"answers_differ\": [{c}, {d}], \
+         \"boxes\": {boxes:.2}, \"primitives\": {primitives:.2}}}",
+        class.name, a.0, b.0, a.1.0, a.1.1, b.1.0, b.1.1
     )
 }
 

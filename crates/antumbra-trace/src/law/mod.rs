@@ -25,7 +25,7 @@ pub use exact::stage2;
 pub use stage1::{Verdict, stage1};
 
 pub(crate) use exact::{side_of_direction, side_of_point};
-pub(crate) use stage1::{facing, volume};
+pub(crate) use stage1::{Edges, Numbers, TEN_W, decide, facing, volume};
 
 /// Weights are taken from stage 1 while its bounds are below this part of their sum: 2⁻³⁰.
 const WEIGHT_BOUND: f64 = 1.0 / 1_073_741_824.0;
@@ -65,13 +65,23 @@ pub fn blocks(line: &Line, corners: [[f32; 3]; 3]) -> bool {
 #[inline]
 pub fn barycentrics(line: &Line, corners: [[f32; 3]; 3]) -> [f32; 2] {
     let corners = widened(corners);
-    let stage1::Edges { w, b } = stage1::edges(line, corners);
+    let edges = stage1::edges(line, corners);
+    good_weights(&edges).unwrap_or_else(|| from_weights(exact::weights(line, corners)))
+}
+
+/// [`barycentrics`] from the edges of stage 1, where they are good enough.
+#[inline(always)]
+pub(crate) fn good_weights(&Edges { w, b }: &Edges) -> Option<[f32; 2]> {
     let sum = (w[0] + w[1] + w[2]).abs();
-    let good = b.iter().all(|&b| b <= WEIGHT_BOUND * sum) && sum > 0.0;
+    let good = (b[0] <= WEIGHT_BOUND * sum) & (b[1] <= WEIGHT_BOUND * sum) & (b[2] <= WEIGHT_BOUND * sum);
     // Edge ab (0) faces c, edge bc (1) faces a, edge ca (2) faces b.
-    let [a, b, c] = if good { [w[1], w[2], w[0]] } else { exact::weights(line, corners) };
+    (good && sum > 0.0).then(|| from_weights([w[1], w[2], w[0]]))
+}
+
+#[inline(always)]
+fn from_weights([a, b, c]: [f64; 3]) -> [f32; 2] {
     let sign = 1f64.copysign(a + b + c);
-    let [a, b, c] = [a, b, c].map(|w| (sign * w).max(0.0));
+    let (a, b, c) = ((sign * a).max(0.0), (sign * b).max(0.0), (sign * c).max(0.0));
     let sum = a + b + c;
     if !(sum > 0.0) {
         return [0.0; 2];

@@ -4,7 +4,7 @@
 use super::line::Line;
 
 /// 10 w, w = 2⁻⁵³: proved in LAW §1 for every value below, the bounds' own rounding included.
-const TEN_W: f64 = 10.0 / 9_007_199_254_740_992.0;
+pub(crate) const TEN_W: f64 = 10.0 / 9_007_199_254_740_992.0;
 /// 2⁻³⁰: t = sv / |det| is taken from here only if both parts are this good.
 const T_BOUND: f64 = 1.0 / 1_073_741_824.0;
 
@@ -52,7 +52,7 @@ pub(super) fn sub(x: [f64; 3], y: [f64; 3]) -> [f64; 3] {
 
 /// The three w_i = −2 W_i and their bounds b_i.
 #[derive(Clone, Copy)]
-pub(super) struct Edges {
+pub(crate) struct Edges {
     pub w: [f64; 3],
     pub b: [f64; 3],
 }
@@ -103,27 +103,49 @@ pub(crate) fn facing(d: [f64; 3], corners: [[f64; 3]; 3]) -> (f64, f64) {
     (dot(d, cross(e0, e1)), TEN_W * dot(d.map(f64::abs), cross_bound(e0, e1)))
 }
 
+/// All that stage 1 computes of a line and a triangle, before it decides.
+#[derive(Clone, Copy)]
+pub(crate) struct Numbers {
+    /// w_i = −2 W_i of the edges ab, bc, ca, and their bounds.
+    pub edges: Edges,
+    /// V and its bound.
+    pub v: (f64, f64),
+    /// D and its bound.
+    pub det: (f64, f64),
+}
+
 /// Stage 1. `line` is valid; corners are f32 numbers.
 #[doc(hidden)]
 #[inline]
 pub fn stage1(line: &Line, corners: [[f64; 3]; 3]) -> Verdict {
     let view = view(line.o, corners);
     let d = line.d;
-    let Edges { w, b } = edges_of(&view, d);
-    let above = [w[0] > b[0], w[1] > b[1], w[2] > b[2]];
-    let below = [w[0] < -b[0], w[1] < -b[1], w[2] < -b[2]];
-    if (above[0] | above[1] | above[2]) & (below[0] | below[1] | below[2]) {
+    let edges = edges_of(&view, d);
+    if certainly_beside(&edges) {
         return Verdict::Miss;
     }
-    let pos = above[0] & above[1] & above[2];
-    let neg = below[0] & below[1] & below[2];
-
     let n = cross(view.e[0], view.e[1]);
     let p = cross_bound(view.e[0], view.e[1]);
-    let v = dot(view.from_o[0], n);
-    let bv = TEN_W * dot(view.from_o[0].map(f64::abs), p);
-    let det = dot(d, n);
-    let bd = TEN_W * dot(d.map(f64::abs), p);
+    let v = (dot(view.from_o[0], n), TEN_W * dot(view.from_o[0].map(f64::abs), p));
+    let det = (dot(d, n), TEN_W * dot(d.map(f64::abs), p));
+    decide(&Numbers { edges, v, det }, line.tmax)
+}
+
+/// The line passes an edge on the outer side for certain.
+#[inline(always)]
+fn certainly_beside(Edges { w, b }: &Edges) -> bool {
+    ((w[0] > b[0]) | (w[1] > b[1]) | (w[2] > b[2])) & ((w[0] < -b[0]) | (w[1] < -b[1]) | (w[2] < -b[2]))
+}
+
+/// What follows from the numbers of stage 1 for 0 < t < `tmax`.
+#[inline(always)]
+pub(crate) fn decide(numbers: &Numbers, tmax: f64) -> Verdict {
+    if certainly_beside(&numbers.edges) {
+        return Verdict::Miss;
+    }
+    let Numbers { edges: Edges { w, b }, v: (v, bv), det: (det, bd) } = *numbers;
+    let pos = (w[0] > b[0]) & (w[1] > b[1]) & (w[2] > b[2]);
+    let neg = (w[0] < -b[0]) & (w[1] < -b[1]) & (w[2] < -b[2]);
     let det_abs = det.abs();
     if !(pos | neg) {
         if bd == 0.0 {
@@ -141,9 +163,9 @@ pub fn stage1(line: &Line, corners: [[f64; 3]; 3]) -> Verdict {
     if det_abs <= bd {
         return Verdict::Open;
     }
-    if line.tmax < f64::INFINITY {
-        let far = line.tmax * det_abs - sv;
-        let bf = line.tmax * (bd + 2.0 * TEN_W / 10.0 * det_abs) + bv;
+    if tmax < f64::INFINITY {
+        let far = tmax * det_abs - sv;
+        let bf = tmax * (bd + 2.0 * TEN_W / 10.0 * det_abs) + bv;
         if far < -bf {
             return Verdict::Miss;
         }

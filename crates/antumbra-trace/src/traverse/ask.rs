@@ -4,7 +4,7 @@ use std::cell::OnceCell;
 
 use crate::law::Line;
 use crate::place::Place;
-use crate::{Hits, NO_PRIM, Passes, PrimId, Segments};
+use crate::{Hits, NO_PRIM, Passes, PrimId, Segments, TO_POINT};
 
 /// What happens at masked primitives.
 pub(crate) trait Masks: Sync {
@@ -47,41 +47,59 @@ pub(crate) struct Ask<'a, M> {
     base: PrimId,
     /// All primitives here are masked (instances; in world space each says so itself).
     pub masked: bool,
-    /// The primitive that it starts on, numbered as here.
-    pub first: PrimId,
-    /// The primitive that it ends on, numbered as here.
-    pub last: PrimId,
 }
 
 impl<'a, M: Masks> Ask<'a, M> {
     /// In world space.
     #[inline(always)]
     pub fn world(segments: &'a Segments<'a>, i: usize, masks: &'a M) -> Ask<'a, M> {
-        let (first, last) = (segments.first[i], segments.last[i]);
-        Ask { segments, i, masks, line: OnceCell::new(), base: 0, masked: false, first, last }
+        Ask { segments, i, masks, line: OnceCell::new(), base: 0, masked: false }
     }
 
     /// The same entry in the space of an instance.
     #[inline(always)]
     pub fn placed(&self, line: Line, place: &Place) -> Ask<'a, M> {
-        let (base, masked) = (place.base, place.masked);
-        let local = |prim: PrimId| if prim.wrapping_sub(base) < place.count { prim - base } else { NO_PRIM };
-        Ask {
-            segments: self.segments,
-            i: self.i,
-            masks: self.masks,
-            line: OnceCell::from(line),
-            base,
-            masked,
-            first: local(self.first),
-            last: local(self.last),
-        }
+        let (segments, i, masks) = (self.segments, self.i, self.masks);
+        Ask { segments, i, masks, line: OnceCell::from(line), base: place.base, masked: place.masked }
+    }
+
+    /// Primitive `id` of a leaf is none, or one that the batch says never blocks this entry if it is flat.
+    #[inline]
+    pub fn skips(&self, id: PrimId) -> bool {
+        id == NO_PRIM || self.starts_on(id) || self.ends_on(id)
+    }
+
+    /// The entry starts on primitive `id`.
+    #[inline]
+    pub fn starts_on(&self, id: PrimId) -> bool {
+        self.world_prim(id) == self.segments.first[self.i]
+    }
+
+    /// The entry ends on primitive `id`.
+    #[inline]
+    pub fn ends_on(&self, id: PrimId) -> bool {
+        self.world_prim(id) == self.segments.last[self.i]
     }
 
     /// The line as the law takes it.
     #[inline]
     pub fn line(&self) -> &Line {
         self.line.get_or_init(|| Line::of(self.segments, self.i))
+    }
+
+    /// Origin, rounded direction and tmax of [`line`](Ask::line), which must be valid.
+    #[inline(always)]
+    pub fn numbers(&self) -> ([f64; 3], [f64; 3], f64) {
+        if let Some(line) = self.line.get() {
+            return (line.o, line.d, line.tmax);
+        }
+        let wide = |v: [f32; 3]| [f64::from(v[0]), f64::from(v[1]), f64::from(v[2])];
+        let (o, e) = (wide(self.segments.origin_at(self.i)), wide(self.segments.end_at(self.i)));
+        let reach = self.segments.reach[self.i];
+        if reach == TO_POINT {
+            return (o, [e[0] - o[0], e[1] - o[1], e[2] - o[2]], 1.0);
+        }
+        (o, e, f64::from(reach))
     }
 
     /// World number of primitive `id`.

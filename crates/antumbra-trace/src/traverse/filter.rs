@@ -2,7 +2,7 @@
 
 use fearless_simd::{Simd, f32x8, prelude::*};
 
-use super::ray::FastLine;
+use super::ray::{FastLine, size};
 use super::vector::V3;
 use crate::layout::{TriangleBlock, WIDTH};
 
@@ -28,7 +28,7 @@ impl<S: Simd> TriangleRay<S> {
     pub fn new(simd: S, line: &FastLine, placed: bool) -> TriangleRay<S> {
         let (o, d) = (&line.o, &line.d);
         let d1 = (d[0].abs() + d[1].abs() + d[2].abs()) * 1.00001;
-        let off = if placed { o[0].abs().max(o[1].abs()).max(o[2].abs()) } else { 0.0 };
+        let off = if placed { size(o) } else { 0.0 };
         TriangleRay {
             o: V3::splat(simd, *o),
             d: V3::splat(simd, *d),

@@ -3,7 +3,7 @@
 use fearless_simd::{Simd, f32x8, prelude::*};
 
 use crate::law::Line;
-use crate::layout::{Tree, below};
+use crate::layout::{Tree, below, larger, smaller};
 use crate::{Segments, TO_POINT};
 
 /// A line rounded to f32; origin and direction are off by at most one rounding each.
@@ -15,17 +15,6 @@ pub(crate) struct FastLine {
 }
 
 impl FastLine {
-    /// Entry i of a batch, in world space.
-    #[inline(always)]
-    pub fn of(segments: &Segments<'_>, i: usize) -> FastLine {
-        let (o, end, reach) = (segments.origin_at(i), segments.end_at(i), segments.reach[i]);
-        if reach == TO_POINT {
-            FastLine { o, d: [end[0] - o[0], end[1] - o[1], end[2] - o[2]], tmax: 1.0 }
-        } else {
-            FastLine { o, d: end, tmax: reach }
-        }
-    }
-
     /// A line of an object's space; `tmax` in f32 as it was asked, or shorter. `None` if a component of the direction
     /// would lose more than one rounding.
     #[inline(always)]
@@ -35,6 +24,46 @@ impl FastLine {
         let whole = normal(line.d[0]) & normal(line.d[1]) & normal(line.d[2]);
         whole.then(|| FastLine { o: f(line.o), d: f(line.d), tmax })
     }
+}
+
+/// A batch whose columns are known to be equally long: one bounds check an entry is enough.
+#[derive(Clone, Copy)]
+pub(crate) struct Lines<'a> {
+    origin: [&'a [f32]; 3],
+    end: [&'a [f32]; 3],
+    reach: &'a [f32],
+}
+
+impl<'a> Lines<'a> {
+    /// The lines of a batch, in world space.
+    #[inline(always)]
+    pub fn of(segments: &Segments<'a>) -> Lines<'a> {
+        let n = segments.reach.len();
+        let (o, e) = (segments.origin, segments.end);
+        Lines {
+            origin: [&o[0][..n], &o[1][..n], &o[2][..n]],
+            end: [&e[0][..n], &e[1][..n], &e[2][..n]],
+            reach: segments.reach,
+        }
+    }
+
+    /// Entry i.
+    #[inline(always)]
+    pub fn line(&self, i: usize) -> FastLine {
+        let o = [self.origin[0][i], self.origin[1][i], self.origin[2][i]];
+        let e = [self.end[0][i], self.end[1][i], self.end[2][i]];
+        if self.reach[i] == TO_POINT {
+            FastLine { o, d: [e[0] - o[0], e[1] - o[1], e[2] - o[2]], tmax: 1.0 }
+        } else {
+            FastLine { o, d: e, tmax: self.reach[i] }
+        }
+    }
+}
+
+/// |v|∞, where no component is NaN.
+#[inline(always)]
+pub(crate) fn size(v: &[f32; 3]) -> f32 {
+    larger(larger(v[0].abs(), v[1].abs()), v[2].abs())
 }
 
 /// 2^k as f32.
@@ -73,15 +102,11 @@ impl Limits {
     /// 0 < tmax. False for NaN.
     #[inline(always)]
     pub fn hold(&self, line: &FastLine) -> bool {
-        let largest = |v: &[f32; 3]| v[0].abs().max(v[1].abs()).max(v[2].abs());
-        let (o, d) = (largest(&line.o), largest(&line.d));
-        // max drops NaN, the sums do not.
-        let clean = line.o[0] + line.o[1] + line.o[2] + line.d[0] + line.d[1] + line.d[2];
-        (power(-40)..=power(38)).contains(&d)
-            && o <= self.origin
-            && o <= power(66) * d
-            && line.tmax > 0.0
-            && !clean.is_nan()
+        let within =
+            |v: &[f32; 3], limit: f32| (v[0].abs() <= limit) & (v[1].abs() <= limit) & (v[2].abs() <= limit);
+        let d = size(&line.d);
+        let far = smaller(self.origin, power(66) * d);
+        within(&line.o, far) & within(&line.d, power(38)) & (d >= power(-40)) & (line.tmax > 0.0)
     }
 }
 
@@ -103,7 +128,7 @@ impl<S: Simd> BoxRay<S> {
     #[inline(always)]
     pub fn new(simd: S, line: &FastLine) -> BoxRay<S> {
         let d = &line.d;
-        let eta = power(-60) * d[0].abs().max(d[1].abs()).max(d[2].abs());
+        let eta = power(-60) * size(d);
         let (rx, ry, rz) = (reciprocal(d[0], eta), reciprocal(d[1], eta), reciprocal(d[2], eta));
         let lane = |x: f32| f32x8::splat(simd, x);
         BoxRay {

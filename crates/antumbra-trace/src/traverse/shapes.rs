@@ -41,7 +41,8 @@ impl<M: Masks> ShapeVisit<'_, M> {
         let ids = self.of.tree.leaves[leaf];
         ids.into_iter().filter(|&id| id != NO_PRIM).map(|id| &self.of.shapes[id as usize]).filter(|s| {
             let flat = matches!(s.shape, Shape::Disk { .. });
-            s.prim != self.ask.last && !(flat && s.prim == self.ask.first)
+            let skipped = self.ask.ends_on(s.prim) || (flat && self.ask.starts_on(s.prim));
+            !skipped
         })
     }
 

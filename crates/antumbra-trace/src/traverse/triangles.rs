@@ -6,9 +6,10 @@ use super::ask::{Ask, Best, Masks};
 use super::boxes::{VisitAny, VisitNearest};
 use super::exact::{Count, ExactVisit};
 use super::filter::{Interval, TriangleRay, Verdict, filter, filter_with_t};
+use super::measure;
 use super::ray::{FastLine, Limits};
 use crate::NO_PRIM;
-use crate::law::{self, Line};
+use crate::law;
 use crate::layout::{Tree, TriangleBlock};
 
 /// A tree over triangles.
@@ -65,30 +66,35 @@ pub(crate) struct NearestTriangle<'a, S: Simd, M, const PLACED: bool> {
     of: &'a TriangleTree,
     ask: &'a Ask<'a, M>,
     ray: TriangleRay<S>,
-    best: Best,
+    best: &'a mut Best,
     candidates: [Candidate; ROOM],
     kept: usize,
 }
 
 impl<'a, S: Simd, M: Masks, const PLACED: bool> NearestTriangle<'a, S, M, PLACED> {
     #[inline(always)]
-    pub fn new(simd: S, of: &'a TriangleTree, ask: &'a Ask<'a, M>, line: &FastLine, best: Best) -> Self {
+    pub fn new(
+        simd: S,
+        of: &'a TriangleTree,
+        ask: &'a Ask<'a, M>,
+        line: &FastLine,
+        best: &'a mut Best,
+    ) -> Self {
         let ray = TriangleRay::new(simd, line, PLACED);
         NearestTriangle { of, ask, ray, best, candidates: [Candidate::default(); ROOM], kept: 0 }
     }
 
-    /// The closest hit after the walk.
+    /// Ends the walk: `best` is then the closest hit.
     #[inline(always)]
-    pub fn best(mut self) -> Best {
+    pub fn finish(&mut self, simd: S) {
         if self.kept > 0 {
-            self.decide();
+            self.decide(simd);
         }
-        self.best
     }
 
     /// Lowers the limit by certain hits and keeps what may be closest.
     #[inline(never)]
-    fn keep(&mut self, leaf: usize, verdict: Verdict, t: &Interval) {
+    fn keep(&mut self, simd: S, leaf: usize, verdict: Verdict, t: &Interval) {
         let mut lanes = verdict.lanes();
         while lanes != 0 {
             let lane = lanes.trailing_zeros() as usize;
@@ -96,14 +102,14 @@ impl<'a, S: Simd, M: Masks, const PLACED: bool> NearestTriangle<'a, S, M, PLACED
             let id = self.of.tree.leaves[leaf][lane];
             let certain = verdict.hit >> lane & 1 == 1;
             let from = if certain { t.from[lane] } else { 0.0 };
-            if id == NO_PRIM || id == self.ask.first || id == self.ask.last || from > self.best.limit {
+            if self.ask.skips(id) || from > self.best.limit {
                 continue;
             }
             if certain {
                 self.best.limit = self.best.limit.min(t.to[lane]);
             }
             if self.kept == ROOM {
-                self.decide();
+                self.decide(simd);
             }
             self.candidates[self.kept] = Candidate { leaf: leaf as u32, lane: lane as u32, from };
             self.kept += 1;
@@ -112,15 +118,39 @@ impl<'a, S: Simd, M: Masks, const PLACED: bool> NearestTriangle<'a, S, M, PLACED
 
     /// Asks the law about the candidates that are still within the limit.
     #[inline(never)]
-    fn decide(&mut self) {
-        let line = self.ask.line();
-        for k in 0..self.kept {
-            let Candidate { leaf, lane, from } = self.candidates[k];
-            if from <= self.best.limit {
-                offer(self.of, self.ask, line, leaf as usize, 1 << lane, &mut self.best);
-            }
-        }
+    fn decide(&mut self, simd: S) {
+        simd.vectorize(
+            #[inline(always)]
+            || {
+                let (o, d, tmax) = self.ask.numbers();
+                for k in 0..self.kept {
+                    let Candidate { leaf, lane, from } = self.candidates[k];
+                    if from <= self.best.limit {
+                        self.weigh(simd, (&o, &d), tmax, leaf as usize, lane as usize);
+                    }
+                }
+            },
+        );
         self.kept = 0;
+    }
+
+    /// The law of the triangle, by its stage 1 where that suffices.
+    #[inline(always)]
+    fn weigh(&mut self, simd: S, line: (&[f64; 3], &[f64; 3]), tmax: f64, leaf: usize, lane: usize) {
+        let numbers = measure::numbers(simd, line, &self.of.blocks[leaf], lane);
+        let t = match law::decide(&numbers, tmax) {
+            law::Verdict::Miss => return,
+            law::Verdict::Hit(t) => t,
+            _ => return offer(self.of, self.ask, leaf, 1 << lane, self.best),
+        };
+        let prim = self.ask.world_prim(self.of.tree.leaves[leaf][lane]);
+        if !self.best.improves(t, prim) {
+            return;
+        }
+        match law::good_weights(&numbers.edges) {
+            Some(uv) => self.best.take(t, prim, uv),
+            None => offer(self.of, self.ask, leaf, 1 << lane, self.best),
+        }
     }
 }
 
@@ -131,9 +161,9 @@ impl<S: Simd, M: Masks, const PLACED: bool> VisitNearest<S> for NearestTriangle<
             filter_with_t::<S, PLACED>(simd, &self.of.blocks[leaf], &self.ray, self.best.limit);
         if verdict.lanes() != 0 {
             if M::ASK {
-                offer(self.of, self.ask, self.ask.line(), leaf, verdict.lanes(), &mut self.best);
+                offer(self.of, self.ask, leaf, verdict.lanes(), self.best);
             } else {
-                self.keep(leaf, verdict, &t);
+                self.keep(simd, leaf, verdict, &t);
             }
         }
         self.best.limit
@@ -147,7 +177,7 @@ fn blocks<M: Masks>(of: &TriangleTree, ask: &Ask<'_, M>, leaf: usize, mut lanes:
         let lane = lanes.trailing_zeros() as usize;
         lanes &= lanes - 1;
         let id = of.tree.leaves[leaf][lane];
-        if id == NO_PRIM || id == ask.first || id == ask.last {
+        if ask.skips(id) {
             continue;
         }
         let masked = M::ASK && of.is_masked(ask, leaf, lane);
@@ -164,19 +194,14 @@ fn blocks<M: Masks>(of: &TriangleTree, ask: &Ask<'_, M>, leaf: usize, mut lanes:
 }
 
 /// Offers the hits among `lanes` to `best`.
-fn offer<M: Masks>(
-    of: &TriangleTree,
-    ask: &Ask<'_, M>,
-    line: &Line,
-    leaf: usize,
-    mut lanes: u32,
-    best: &mut Best,
-) {
+#[inline(never)]
+fn offer<M: Masks>(of: &TriangleTree, ask: &Ask<'_, M>, leaf: usize, mut lanes: u32, best: &mut Best) {
+    let line = ask.line();
     while lanes != 0 {
         let lane = lanes.trailing_zeros() as usize;
         lanes &= lanes - 1;
         let id = of.tree.leaves[leaf][lane];
-        if id == NO_PRIM || id == ask.first || id == ask.last {
+        if ask.skips(id) {
             continue;
         }
         let corners = of.blocks[leaf].triangle(lane);
@@ -218,6 +243,6 @@ impl<M: Masks> ExactVisit for ExactTriangles<'_, M> {
 
     fn nearest(&mut self, leaf: usize, best: &mut Best, count: &mut impl Count) {
         count.primitives(self.of.count(leaf));
-        offer(self.of, self.ask, self.ask.line(), leaf, 0xff, best);
+        offer(self.of, self.ask, leaf, 0xff, best);
     }
 }
