@@ -24,6 +24,9 @@ pub(super) struct Accessors<'a> {
     pub context: &'a Context<'a>,
 }
 
+/// Which elements are wanted: all, or those of these indices, each below the number of elements.
+pub(super) type Pick<'a> = Option<&'a [u32]>;
+
 /// The elements of one accessor, all within `bytes`.
 struct Elements<'a> {
     bytes: Cow<'a, [u8]>,
@@ -91,7 +94,7 @@ impl<'a> Accessors<'a> {
     }
 
     /// Elements of N floats; integers are converted, to [−1, 1] or [0, 1] where they are normalised.
-    pub(super) fn floats<const N: usize>(&self, index: usize) -> Result<Vec<[f32; N]>, ReadError>
+    pub(super) fn floats<const N: usize>(&self, index: usize, pick: Pick) -> Result<Vec<[f32; N]>, ReadError>
     where
         [f32; N]: Pod,
         [u32; N]: Pod,
@@ -100,34 +103,38 @@ impl<'a> Accessors<'a> {
         [i8; N]: Pod,
         [u8; N]: Pod,
     {
-        let e = self.elements(index, N)?;
+        let e = self.elements(index, N, pick)?;
         Ok(match (e.component, e.normalized) {
-            (F32, _) => e.collect(|v: [f32; N]| v),
+            (F32, _) => e.collect(pick, |v: [f32; N]| v),
             // Section 3.6.2.2: c / 255, c / 127 not below −1, and so on.
-            (U8, true) => e.collect(|v: [u8; N]| v.map(|c| f32::from(c) / 255.0)),
-            (U16, true) => e.collect(|v: [u16; N]| v.map(|c| f32::from(c) / 65535.0)),
-            (I8, true) => e.collect(|v: [i8; N]| v.map(|c| (f32::from(c) / 127.0).max(-1.0))),
-            (I16, true) => e.collect(|v: [i16; N]| v.map(|c| (f32::from(c) / 32767.0).max(-1.0))),
-            (U8, false) => e.collect(|v: [u8; N]| v.map(f32::from)),
-            (U16, false) => e.collect(|v: [u16; N]| v.map(f32::from)),
-            (I8, false) => e.collect(|v: [i8; N]| v.map(f32::from)),
-            (I16, false) => e.collect(|v: [i16; N]| v.map(f32::from)),
-            _ => e.collect(|v: [u32; N]| v.map(|c| c as f32)),
+            (U8, true) => e.collect(pick, |v: [u8; N]| v.map(|c| f32::from(c) / 255.0)),
+            (U16, true) => e.collect(pick, |v: [u16; N]| v.map(|c| f32::from(c) / 65535.0)),
+            (I8, true) => e.collect(pick, |v: [i8; N]| v.map(|c| (f32::from(c) / 127.0).max(-1.0))),
+            (I16, true) => e.collect(pick, |v: [i16; N]| v.map(|c| (f32::from(c) / 32767.0).max(-1.0))),
+            (U8, false) => e.collect(pick, |v: [u8; N]| v.map(f32::from)),
+            (U16, false) => e.collect(pick, |v: [u16; N]| v.map(f32::from)),
+            (I8, false) => e.collect(pick, |v: [i8; N]| v.map(f32::from)),
+            (I16, false) => e.collect(pick, |v: [i16; N]| v.map(f32::from)),
+            _ => e.collect(pick, |v: [u32; N]| v.map(|c| c as f32)),
         })
     }
 
     /// Elements of N unsigned integers.
-    pub(super) fn integers<const N: usize>(&self, index: usize) -> Result<Vec<[u32; N]>, ReadError>
+    pub(super) fn integers<const N: usize>(
+        &self,
+        index: usize,
+        pick: Pick,
+    ) -> Result<Vec<[u32; N]>, ReadError>
     where
         [u32; N]: Pod,
         [u16; N]: Pod,
         [u8; N]: Pod,
     {
-        let e = self.elements(index, N)?;
+        let e = self.elements(index, N, pick)?;
         match e.component {
-            U32 => Ok(e.collect(|v: [u32; N]| v)),
-            U16 => Ok(e.collect(|v: [u16; N]| v.map(u32::from))),
-            U8 => Ok(e.collect(|v: [u8; N]| v.map(u32::from))),
+            U32 => Ok(e.collect(pick, |v: [u32; N]| v)),
+            U16 => Ok(e.collect(pick, |v: [u16; N]| v.map(u32::from))),
+            U8 => Ok(e.collect(pick, |v: [u8; N]| v.map(u32::from))),
             other => {
                 let what = format!("has component type {other}; indices are 5121, 5123 or 5125");
                 Err(ReadError::new(place(index), what))
@@ -136,7 +143,7 @@ impl<'a> Accessors<'a> {
     }
 
     /// The checked elements, sparse values applied.
-    fn elements(&self, index: usize, wanted: usize) -> Result<Elements<'a>, ReadError> {
+    fn elements(&self, index: usize, wanted: usize, pick: Pick) -> Result<Elements<'a>, ReadError> {
         let a = self.accessor(index)?;
         let fail = |what: String| ReadError::new(place(index), what);
         let component = component_size(a.component_type)
@@ -156,8 +163,11 @@ impl<'a> Accessors<'a> {
             Some(view) => self.slice(view, a.byte_offset, a.count, size).map_err(too_much)?,
             None => (&[] as &[u8], size),
         };
-        // What is converted is charged too: many accessors may name the same bytes.
-        self.context.take(a.count, size as u64 + 4 * lanes as u64).map_err(too_much)?;
+        // What is converted is charged, for many accessors may name the same bytes; so is what has to be made first.
+        let made = a.buffer_view.is_none() || a.sparse.is_some();
+        let converted = pick.map_or(a.count, |p| p.len() as u64);
+        self.context.take(if made { a.count } else { 0 }, size as u64).map_err(too_much)?;
+        self.context.take(converted, 4 * lanes as u64).map_err(too_much)?;
         let count = a.count as usize;
         let bytes =
             if a.buffer_view.is_some() { Cow::Borrowed(bytes) } else { Cow::Owned(vec![0; count * size]) };
@@ -239,18 +249,17 @@ impl<'a> Accessors<'a> {
 
 impl Elements<'_> {
     /// Each element through `convert`; one copy where nothing is converted and nothing lies between.
-    fn collect<T: Pod, O: Pod>(&self, convert: impl Fn(T) -> O) -> Vec<O> {
+    fn collect<T: Pod, O: Pod>(&self, pick: Pick, convert: impl Fn(T) -> O) -> Vec<O> {
         debug_assert_eq!(size_of::<T>(), self.size);
+        let at = |bytes: &[u8]| convert(bytemuck::pod_read_unaligned(&bytes[..self.size]));
+        if let Some(pick) = pick {
+            return pick.iter().map(|i| at(&self.bytes[*i as usize * self.stride..])).collect();
+        }
         if TypeId::of::<T>() == TypeId::of::<O>() && self.stride == self.size {
             return bytemuck::pod_collect_to_vec(&self.bytes[..self.count * self.size]);
         }
         let mut out = Vec::with_capacity(self.count);
-        out.extend(
-            self.bytes
-                .chunks(self.stride.max(1))
-                .take(self.count)
-                .map(|c| convert(bytemuck::pod_read_unaligned(&c[..self.size]))),
-        );
+        out.extend(self.bytes.chunks(self.stride.max(1)).take(self.count).map(at));
         out
     }
 }

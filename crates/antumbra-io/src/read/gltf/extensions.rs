@@ -58,14 +58,14 @@ pub(super) fn check(doc: &Document, said: &mut Counted) -> Result<(), ReadError>
         );
         return Err(error.hint(advice(name)));
     }
-    for name in &doc.extensions_used {
-        let name = name.as_str();
-        let known = READ.contains(&name) || NOTHING_TO_SEE.contains(&name);
+    let mut named: Vec<&str> =
+        doc.extensions_used.iter().chain(&doc.extensions_required).map(String::as_str).collect();
+    named.sort_unstable();
+    named.dedup();
+    for name in named {
         // Material extensions are named with their materials.
-        if !known && !name.contains("_materials_") && !doc.extensions_required.contains(&name.to_string()) {
+        if !READ.contains(&name) && !NOTHING_TO_SEE.contains(&name) && !name.contains("_materials_") {
             said.warn("extensionsUsed", format!("{name} is not read: the scene is drawn without it"));
-        } else if LOOKS.contains(&name) {
-            said.warn("extensionsRequired", format!("{name} is not read: the scene is drawn without it"));
         }
     }
     Ok(())

@@ -10,9 +10,12 @@ mod light;
 mod material;
 mod mesh;
 mod node;
+mod primitive;
+mod skin;
 mod texture;
 
 use antumbra::scene::{Level, SceneBuilder};
+use antumbra_math::Transform;
 
 use accessor::Accessors;
 use document::{Asset, Document};
@@ -28,7 +31,9 @@ struct Reader<'a> {
     scene: SceneBuilder,
     said: Counted,
     materials: material::Materials,
-    meshes: mesh::Meshes,
+    meshes: primitive::Meshes,
+    /// Where each node of the scene stands.
+    world: Vec<Option<Transform>>,
 }
 
 /// Reads a `.gltf` or `.glb`.
@@ -49,10 +54,13 @@ pub(super) fn read(bytes: &[u8], context: &Context) -> Result<SceneBuilder, Read
         scene: SceneBuilder { source: source(&doc.asset), ..SceneBuilder::default() },
         said,
         materials: material::Materials::default(),
-        meshes: mesh::Meshes::default(),
+        meshes: primitive::Meshes::default(),
+        world: vec![None; doc.nodes.len()],
     };
-    for placed in node::walk(&doc, &context.root, &mut reader.said)? {
-        reader.place(&placed)?;
+    let placed = node::walk(&doc, &context.root, &mut reader.said)?;
+    placed.iter().for_each(|p| reader.world[p.node] = Some(p.world));
+    for node in &placed {
+        reader.place(node)?;
     }
     reader.finish()
 }
@@ -71,15 +79,12 @@ impl Reader<'_> {
     }
 
     fn finish(mut self) -> Result<SceneBuilder, ReadError> {
-        if !self.meshes.announced() {
+        if !self.meshes.announced {
             let what = "there is nothing to render: no mesh with triangles in the scene";
             return Err(ReadError::new("", what).hint("Check that the right scene was exported."));
         }
-        let still = [(!self.doc.animations.is_empty(), "animations"), (self.meshes.skinned, "skins")];
-        let still: Vec<_> = still.iter().filter(|s| s.0).map(|s| s.1).collect();
-        if !still.is_empty() {
-            let text = format!("{} stand still: the scene is drawn as its nodes stand", still.join(" and "));
-            self.scene.say(Level::Note, "", text);
+        if !self.doc.animations.is_empty() {
+            self.scene.say(Level::Note, "", "animations stand still: the scene is drawn as its nodes stand");
         }
         self.scene.sky_if_unlit = true;
         self.said.into_scene(&mut self.scene);
