@@ -8,7 +8,7 @@
 
 use antumbra_math::{Local, Rgb, real};
 
-use super::ggx::{Ggx, MIN_ALPHA};
+use super::ggx::{Ggx, MIN_ALPHA, Pair};
 use super::ggx_albedo::{DIELECTRIC_F0, Row};
 use super::{BsdfKind, BsdfSample, diffuse};
 use crate::density::Density;
@@ -41,17 +41,25 @@ impl MetallicRoughness {
         }
     }
 
-    /// f_r and the pdf of `sample` for directions above the horizon.
+    /// f_r for directions above the horizon.
     #[inline]
-    fn eval_and_pdf(&self, wo: Local, wi: Local, lobes: Lobes) -> (Rgb, f32) {
-        let (mu_o, mu_i) = (wo.cos(), wi.cos());
+    fn reflected(&self, mu_o: f32, mu_i: f32, through_o: f32, pair: Option<Pair>) -> Rgb {
+        let f_spec = pair.map_or(Rgb::BLACK, |pair| {
+            let fresnel = self.f0 + (Rgb::WHITE - self.f0) * pair.schlick;
+            fresnel * (pair.d * self.ggx.visibility(mu_o, mu_i))
+        });
+        if self.diffuse.is_black() {
+            return f_spec;
+        }
         let through_i = 1.0 - self.row.directional(mu_i).at(DIELECTRIC_F0);
-        let f_diff = self.diffuse * (self.normalisation * lobes.through * through_i);
-        let p_diff = (1.0 - lobes.specular) * mu_i * real::INV_PI;
-        let Some(pair) = self.ggx.pair(wo, wi) else { return (f_diff, p_diff) };
-        let fresnel = self.f0 + (Rgb::WHITE - self.f0) * pair.schlick;
-        let f_spec = fresnel * (pair.d * self.ggx.visibility(mu_o, mu_i));
-        (f_diff + f_spec, p_diff + lobes.specular * self.ggx.pdf(mu_o, pair.d))
+        f_spec + self.diffuse * (self.normalisation * through_o * through_i)
+    }
+
+    /// p(ω_i) of `sample` for directions above the horizon.
+    #[inline]
+    fn density(&self, mu_o: f32, mu_i: f32, specular: f32, pair: Option<Pair>) -> f32 {
+        let p_spec = pair.map_or(0.0, |pair| self.ggx.pdf(mu_o, pair.d));
+        specular * p_spec + (1.0 - specular) * mu_i * real::INV_PI
     }
 
     /// How `sample` chooses its lobe: by the share of light that each reflects from ω_o.
@@ -80,7 +88,8 @@ impl BsdfKind for MetallicRoughness {
         if wo.cos() <= 0.0 || wi.cos() <= 0.0 {
             return Rgb::BLACK;
         }
-        self.eval_and_pdf(wo, wi, self.lobes(wo.cos())).0
+        let through_o = 1.0 - self.row.directional(wo.cos()).at(DIELECTRIC_F0);
+        self.reflected(wo.cos(), wi.cos(), through_o, self.ggx.pair(wo, wi))
     }
 
     /// u\[2\] chooses the lobe; the density is that of the mixture. `None` where the facet sends light downwards.
@@ -95,11 +104,13 @@ impl BsdfKind for MetallicRoughness {
         if wi.cos() <= 0.0 {
             return None;
         }
-        let (f, pdf) = self.eval_and_pdf(wo, wi, lobes);
+        let (mu_o, mu_i, pair) = (wo.cos(), wi.cos(), self.ggx.pair(wo, wi));
+        let pdf = self.density(mu_o, mu_i, lobes.specular, pair);
         if pdf <= 0.0 {
             return None;
         }
-        Some(BsdfSample { wi, throughput: f * (wi.cos() / pdf), density: Density::SolidAngle(pdf) })
+        let f = self.reflected(mu_o, mu_i, lobes.through, pair);
+        Some(BsdfSample { wi, throughput: f * (mu_i / pdf), density: Density::SolidAngle(pdf) })
     }
 
     #[inline]
@@ -107,7 +118,7 @@ impl BsdfKind for MetallicRoughness {
         if wo.cos() <= 0.0 || wi.cos() <= 0.0 {
             return 0.0;
         }
-        self.eval_and_pdf(wo, wi, self.lobes(wo.cos())).1
+        self.density(wo.cos(), wi.cos(), self.lobes(wo.cos()).specular, self.ggx.pair(wo, wi))
     }
 
     /// The share reflected of light that is equal from everywhere.
