@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use antumbra_math::Vec3;
+use antumbra_math::{Vec3, hash};
 use antumbra_trace::{Bits, Hits, NO_PRIM, Visibility};
 
 use crate::estimator::{AnyEstimator, Draws, Found, FoundLight, Proposals, propose_planes};
@@ -146,18 +146,26 @@ fn follow(job: &Job<'_>, film: &mut Film, b: &mut Buffers, counts: &mut Counts) 
             film.add(Planes::BEAUTY, from.cell, carried);
             film.add(plane, from.cell, carried);
         };
-        if b.hits.prim[i] == NO_PRIM {
+        if !job.shadows {
+            job.scene.from_everywhere(from.p, wi).for_each(|(light, radiance)| find(light, radiance));
+        } else if b.hits.prim[i] == NO_PRIM {
             job.scene.from_infinity(wi).for_each(|(light, radiance)| find(light, radiance));
+        }
+        if b.hits.prim[i] == NO_PRIM {
             continue;
         }
         let met = job.scene.meet(o, wi, b.hits.t[i], b.hits.prim[i], b.hits.uv[i], &job.look);
-        if let Some((light, radiance)) = met.emitted {
+        if let (Some((light, radiance)), true) = (met.emitted, job.shadows) {
             find(light, radiance);
         }
         if onward.goes_on > 0.0 {
             b.next.push(Receiver {
                 cell: from.cell,
-                stream: from.stream,
+                stream: if onward.branch == 0 {
+                    from.stream
+                } else {
+                    hash::hash2(from.stream, onward.branch)
+                },
                 index: from.index,
                 throughput: onward.throughput * onward.goes_on,
                 bounce: from.bounce + 1,

@@ -152,7 +152,13 @@ fn camera(scene: &Scene, s: &Settings, messages: &mut Vec<Message>) -> Result<Ca
                 Some(bounds) => bounds,
                 // Nothing but light: any camera sees it.
                 None if !scene.lights().is_empty() => [Vec3::NEG_ONE, Vec3::ONE],
-                None => return Err(SceneError::new("", "nothing to render: there is no geometry and no light", "")),
+                None => {
+                    return Err(SceneError::new(
+                        "",
+                        "nothing to render: there is no geometry and no light",
+                        "",
+                    ));
+                }
             };
             if s.eye.is_none() {
                 let text = "no camera: made one that sees everything (--eye, --look-at to choose)".into();

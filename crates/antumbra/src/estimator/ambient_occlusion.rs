@@ -5,8 +5,7 @@
 
 use antumbra_math::{Frame, Local, Rgb, real};
 
-use super::{Draws, Estimator, Options, Proposals};
-use crate::film::Planes;
+use super::{Draws, Estimator, Nth, Options, Proposals};
 use crate::receiver::Receiver;
 use crate::sampler::Use;
 use crate::scene::Scene;
@@ -54,18 +53,18 @@ impl Estimator for AmbientOcclusion {
         for at in at {
             let n = u.count(at);
             let frame = Frame::about(at.ng);
-            for j in 0..n {
-                let [u0, u1] = u.pair(at, Use::Direction, j);
+            for nth in Nth::of(n) {
+                let [u0, u1] = u.pair(at, Use::Direction, nth);
                 // p(ω) = cos θ / π: the cosine and 1/π cancel.
                 let (r, phi) = (u0.sqrt(), 2.0 * real::PI * u1);
                 let local = Local::new(r * real::cosf(phi), r * real::sinf(phi), (1.0 - u0).sqrt());
                 let wi = frame.to_world(local);
                 let length = match self.falloff {
                     Falloff::None => self.radius,
-                    falloff => falloff.length(self.radius, u.one(at, Use::Lobe, j)),
+                    falloff => falloff.length(self.radius, u.one(at, Use::Lobe, nth)),
                 };
                 if at.sees_side(wi) && length > 0.0 {
-                    out.probe(at, wi, length, Planes::NONE, Rgb::grey(1.0 / n as f32));
+                    out.probe(at, nth.j, wi, length, Rgb::grey(1.0 / n as f32));
                 }
             }
         }

@@ -2,7 +2,7 @@
 
 use antumbra_math::{Local, Rgb, World, real};
 
-use super::{Draws, Estimator, Found, Mistake, Onward, Options, Proposals};
+use super::{Draws, Estimator, Found, Mistake, Nth, Onward, Options, Proposals};
 use crate::density::Density;
 use crate::receiver::Receiver;
 use crate::sampler::Use;
@@ -29,12 +29,12 @@ pub(super) struct Direction {
 }
 
 impl Directions {
-    /// Draws ω_i for sample `j`; mirrors reflect as mirrors do.
+    /// Draws ω_i for a sample; mirrors reflect as mirrors do.
     #[inline]
-    pub(super) fn draw(self, at: &Receiver, u: &Draws<'_>, j: u32) -> Option<Direction> {
-        let [u0, u1] = u.pair(at, Use::Direction, j);
+    pub(super) fn draw(self, at: &Receiver, u: &Draws<'_>, nth: Nth) -> Option<Direction> {
+        let [u0, u1] = u.pair(at, Use::Direction, nth);
         let drawn = if self == Directions::Bsdf || at.bsdf.is_delta() {
-            let s = at.bsdf.sample(at.wo, [u0, u1, u.one(at, Use::Lobe, j)])?;
+            let s = at.bsdf.sample(at.wo, [u0, u1, u.one(at, Use::Lobe, nth)])?;
             Direction { wi: at.to_world(s.wi), throughput: s.throughput, density: s.density }
         } else {
             let local = self.hemisphere([u0, u1]);
@@ -84,12 +84,13 @@ impl Estimator for Hemisphere {
         for (from, at) in at.iter().enumerate() {
             let n = u.count(at);
             let share = if self.mistake == Mistake::NoCount { 1.0 } else { 1.0 / n as f32 };
-            for j in 0..n {
-                let Some(d) = self.directions.draw(at, u, j) else { continue };
+            for nth in Nth::of(n) {
+                let Some(d) = self.directions.draw(at, u, nth) else { continue };
                 let throughput = d.throughput * at.throughput * share;
                 let onward = Onward {
                     from: from as u32,
                     throughput,
+                    branch: nth.j,
                     density: d.density,
                     found: Found::All,
                     goes_on: 0.0,

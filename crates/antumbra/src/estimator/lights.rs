@@ -3,7 +3,7 @@
 use antumbra_math::Rgb;
 
 use super::proposals::plane_of;
-use super::{Draws, FoundLight, Mistake, Options, Proposals};
+use super::{Draws, FoundLight, Mistake, Nth, Options, Proposals};
 use crate::bsdf::Bsdf;
 use crate::density::Density;
 use crate::film::Planes;
@@ -71,19 +71,19 @@ impl Lights {
         match &self.sampler {
             None => {
                 for light in 0..scene.lights().len() as LightId {
-                    for j in 0..n {
-                        let point = u.pair_for(light, at, Use::LightPoint, j);
-                        self.shadow_ray(scene, at, (light, 1.0), point, n, other, out);
+                    for nth in Nth::of(n) {
+                        let point = u.pair_for(light, at, Use::LightPoint, nth);
+                        self.shadow_ray(scene, at, (light, 1.0), point, nth, other, out);
                     }
                 }
             }
             Some(sampler) => {
                 let mut weights = std::mem::take(&mut out.light_weights);
                 let chooser = sampler.prepare(scene.lights(), at, &mut weights);
-                for j in 0..n {
-                    let Some(pick) = chooser.pick(u.one(at, Use::LightChoice, j)) else { break };
-                    let point = u.pair(at, Use::LightPoint, j);
-                    self.shadow_ray(scene, at, (pick.light, pick.prob), point, n, other, out);
+                for nth in Nth::of(n) {
+                    let Some(pick) = chooser.pick(u.one(at, Use::LightChoice, nth)) else { break };
+                    let point = u.pair(at, Use::LightPoint, nth);
+                    self.shadow_ray(scene, at, (pick.light, pick.prob), point, nth, other, out);
                 }
                 out.light_weights = weights;
             }
@@ -99,7 +99,7 @@ impl Lights {
         at: &Receiver,
         (light, prob): (LightId, f32),
         u: [f32; 2],
-        n: u32,
+        Nth { j, n }: Nth,
         other: Option<&dyn Fn(&LightSample) -> f32>,
         out: &mut Proposals,
     ) {
@@ -115,7 +115,7 @@ impl Lights {
         }
         carried = carried * self.mistaken(&s, n) * at.throughput;
         if !carried.is_black() && carried.is_finite() {
-            out.segment(at, &s, plane_of(at), carried / n as f32);
+            out.segment(at, j, &s, plane_of(at), carried / n as f32);
         }
     }
 
@@ -176,15 +176,15 @@ pub fn propose_planes(
             let light = if lights <= EACH {
                 k
             } else {
-                ((u.pair_for(k, at, Use::Lens, 0)[0] * lights as f32) as u32).min(lights - 1)
+                ((u.pair_for(k, at, Use::Lens, Nth::ONLY)[0] * lights as f32) as u32).min(lights - 1)
             };
             let light = &scene.lights()[light as usize];
-            let point = u.pair_for(k, at, Use::LightPoint, 0);
+            let point = u.pair_for(k, at, Use::LightPoint, Nth::ONLY);
             if planes.has(Planes::VISIBLE_FRACTION)
                 && let Some(s) = light.sample(at, point, LightPoints::Area)
                 && at.sees_side(s.wi)
             {
-                out.segment(at, &s, Planes::VISIBLE_FRACTION, Rgb::grey(1.0 / chosen as f32));
+                out.segment(at, 0, &s, Planes::VISIBLE_FRACTION, Rgb::grey(1.0 / chosen as f32));
             }
             if planes.has(Planes::UNSHADOWED)
                 && let Some(s) = light.sample(at, point, LightPoints::SolidAngle)

@@ -2,7 +2,7 @@
 
 use super::hemisphere::Directions;
 use super::lights::{Lights, balance, sees_lights};
-use super::{Draws, Estimator, Found, FoundLight, Mistake, Onward, Options, Proposals};
+use super::{Draws, Estimator, Found, FoundLight, Mistake, Nth, Onward, Options, Proposals};
 use crate::light::LightSample;
 use crate::light::sampler::Scratch;
 use crate::receiver::Receiver;
@@ -41,11 +41,12 @@ impl Mis {
             self.lights.propose(scene, at, u, other, out);
         }
         let share = if self.mistake == Mistake::NoCount { 1.0 } else { 1.0 / directions as f32 };
-        for j in 0..directions {
-            let Some(d) = self.directions.draw(at, u, j) else { continue };
+        for nth in Nth::of(directions) {
+            let Some(d) = self.directions.draw(at, u, nth) else { continue };
             let throughput = d.throughput * at.throughput * share;
             let found = if d.density.is_delta() || twice { Found::All } else { Found::Weighed };
-            out.ray(at, d.wi, Onward { from: from as u32, throughput, density: d.density, found, goes_on });
+            let (from, branch, density) = (from as u32, nth.j, d.density);
+            out.ray(at, d.wi, Onward { from, throughput, branch, density, found, goes_on });
         }
     }
 

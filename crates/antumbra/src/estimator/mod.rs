@@ -71,6 +71,26 @@ pub struct Options {
     pub mistake: Mistake,
 }
 
+/// Which of the samples that a receiver takes for one use.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Nth {
+    /// Its number, below `n`.
+    pub j: u32,
+    /// How many there are.
+    pub n: u32,
+}
+
+impl Nth {
+    /// The only sample.
+    pub const ONLY: Nth = Nth { j: 0, n: 1 };
+
+    /// All of `n` samples.
+    #[inline]
+    pub fn of(n: u32) -> impl Iterator<Item = Nth> {
+        (0..n).map(move |j| Nth { j, n })
+    }
+}
+
 /// The random numbers of receivers, by use.
 pub struct Draws<'a> {
     sampler: &'a AnySampler,
@@ -90,28 +110,27 @@ impl<'a> Draws<'a> {
         if at.bounce == 0 { self.shadow_rays } else { 1 }
     }
 
-    /// Two numbers for sample `j` of a receiver. The N samples of all passes together are one set.
+    /// Two numbers for a sample of a receiver. The samples of all passes together are one set.
     #[inline]
-    pub fn pair(&self, at: &Receiver, what: Use, j: u32) -> [f32; 2] {
-        self.pair_of(at.stream, at, what, j)
+    pub fn pair(&self, at: &Receiver, what: Use, nth: Nth) -> [f32; 2] {
+        self.pair_of(at.stream, at, what, nth)
     }
 
     /// The same for light number `light` when every light is asked: the first shares the pixel's 4-D point.
     #[inline]
-    pub fn pair_for(&self, light: u32, at: &Receiver, what: Use, j: u32) -> [f32; 2] {
+    pub fn pair_for(&self, light: u32, at: &Receiver, what: Use, nth: Nth) -> [f32; 2] {
         let stream = if light == 0 { at.stream } else { hash::hash2(at.stream, light) };
-        self.pair_of(stream, at, what, j)
+        self.pair_of(stream, at, what, nth)
     }
 
     /// One number.
     #[inline]
-    pub fn one(&self, at: &Receiver, what: Use, j: u32) -> f32 {
-        self.pair(at, what, j)[0]
+    pub fn one(&self, at: &Receiver, what: Use, nth: Nth) -> f32 {
+        self.pair(at, what, nth)[0]
     }
 
     #[inline]
-    fn pair_of(&self, stream: u32, at: &Receiver, what: Use, j: u32) -> [f32; 2] {
-        let n = self.count(at);
+    fn pair_of(&self, stream: u32, at: &Receiver, what: Use, Nth { j, n }: Nth) -> [f32; 2] {
         self.sampler.pair(stream, at.index * n + j, self.of * n, what.at(at.bounce))
     }
 }

@@ -3,7 +3,7 @@
 //! Light that the direction finds is the same direct light a second way: the two are weighed as in `mis`.
 
 use super::mis::Mis;
-use super::{Draws, Estimator, FoundLight, Options, Proposals};
+use super::{Draws, Estimator, FoundLight, Nth, Options, Proposals};
 use crate::light::sampler::Scratch;
 use crate::receiver::Receiver;
 use crate::sampler::Use;
@@ -39,7 +39,7 @@ pub(super) fn survive(at: &Receiver, u: &Draws<'_>, bounces: u32, roulette: bool
         return 1.0;
     }
     let q = (at.throughput * at.bsdf.albedo()).max().min(LARGEST);
-    if u.one(at, Use::Roulette, 0) < q { 1.0 / q } else { 0.0 }
+    if u.one(at, Use::Roulette, Nth::ONLY) < q { 1.0 / q } else { 0.0 }
 }
 
 impl Estimator for Path {

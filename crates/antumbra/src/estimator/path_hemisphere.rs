@@ -2,7 +2,7 @@
 
 use super::hemisphere::{Directions, blind_to_points};
 use super::path::survive;
-use super::{Draws, Estimator, Found, Onward, Options, Proposals};
+use super::{Draws, Estimator, Found, Nth, Onward, Options, Proposals};
 use crate::receiver::Receiver;
 use crate::scene::Scene;
 
@@ -26,11 +26,11 @@ impl Estimator for PathHemisphere {
         for (from, at) in at.iter().enumerate() {
             let n = u.count(at);
             let goes_on = survive(at, u, self.bounces, self.roulette);
-            for j in 0..n {
-                let Some(d) = self.directions.draw(at, u, j) else { continue };
+            for nth in Nth::of(n) {
+                let Some(d) = self.directions.draw(at, u, nth) else { continue };
                 let throughput = d.throughput * at.throughput / n as f32;
-                let onward =
-                    Onward { from: from as u32, throughput, density: d.density, found: Found::All, goes_on };
+                let (from, branch, density) = (from as u32, nth.j, d.density);
+                let onward = Onward { from, throughput, branch, density, found: Found::All, goes_on };
                 out.ray(at, d.wi, onward);
             }
         }

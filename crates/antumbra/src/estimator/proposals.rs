@@ -38,6 +38,8 @@ pub struct Onward {
     pub from: u32,
     /// What light arriving along it is worth at the film.
     pub throughput: Rgb,
+    /// Which of the directions of its receiver it is: 0 goes on with the receiver's random numbers, others with their own.
+    pub branch: u32,
     /// How densely its direction was drawn.
     pub density: Density,
     /// What light that it finds counts for.
@@ -72,10 +74,10 @@ impl Proposals {
         self.onward.clear();
     }
 
-    /// A segment from a receiver to a point of a light.
+    /// A segment from a receiver to a point of a light; sample `j` of the receiver.
     #[inline]
-    pub fn segment(&mut self, at: &Receiver, to: &LightSample, plane: Planes, light: Rgb) {
-        let number = number(at);
+    pub fn segment(&mut self, at: &Receiver, j: u32, to: &LightSample, plane: Planes, light: Rgb) {
+        let number = number(at, j);
         let (end, reach) = match to.end {
             End::Infinity => (to.wi, f32::INFINITY),
             End::Point(q) if self.beyond_lights => (q - World::from(at.start), f32::INFINITY),
@@ -85,18 +87,18 @@ impl Proposals {
         self.carried.push(Carried { cell: at.cell, light, plane });
     }
 
-    /// A segment from a receiver along `wi`, as long as `reach`.
+    /// A segment from a receiver along `wi`, as long as `reach`, that carries only openness; sample `j` of the receiver.
     #[inline]
-    pub fn probe(&mut self, at: &Receiver, wi: World, reach: f32, plane: Planes, light: Rgb) {
-        let number = number(at);
+    pub fn probe(&mut self, at: &Receiver, j: u32, wi: World, reach: f32, open: Rgb) {
+        let number = number(at, j);
         self.segments.push_ray(at.start, wi.to_array(), reach, at.prim, number);
-        self.carried.push(Carried { cell: at.cell, light, plane });
+        self.carried.push(Carried { cell: at.cell, light: open, plane: Planes::NONE });
     }
 
     /// A ray onward from a receiver.
     #[inline]
     pub fn ray(&mut self, at: &Receiver, wi: World, onward: Onward) {
-        let number = !number(at);
+        let number = !number(at, onward.branch);
         self.rays.push_ray(at.start, wi.to_array(), f32::INFINITY, at.prim, number);
         self.onward.push(onward);
     }
@@ -110,6 +112,6 @@ pub fn plane_of(at: &Receiver) -> Planes {
 
 /// The number of a ray for stochastic alpha: a function of the receiver's stream and sample alone.
 #[inline]
-fn number(at: &Receiver) -> u32 {
-    antumbra_math::hash::hash3(at.stream, at.index, at.bounce)
+fn number(at: &Receiver, j: u32) -> u32 {
+    antumbra_math::hash::hash3(at.stream ^ j.wrapping_mul(0x9e37_79b9), at.index, at.bounce)
 }

@@ -3,7 +3,7 @@
 use antumbra_math::{Rgb, Vec3, World};
 
 use super::proposals::plane_of;
-use super::{Draws, Estimator, Options, Proposals};
+use super::{Draws, Estimator, Nth, Options, Proposals};
 use crate::density::Density;
 use crate::light::{End, LightSample};
 use crate::receiver::Receiver;
@@ -27,9 +27,9 @@ impl Estimator for Surfaces {
     fn propose(&self, scene: &Scene, at: &[Receiver], u: &Draws<'_>, out: &mut Proposals) {
         for at in at {
             let n = u.count(at);
-            for j in 0..n {
-                let point = u.pair(at, Use::LightPoint, j);
-                let Some(q) = self.areas.point(scene, u.one(at, Use::LightChoice, j), point) else {
+            for nth in Nth::of(n) {
+                let point = u.pair(at, Use::LightPoint, nth);
+                let Some(q) = self.areas.point(scene, u.one(at, Use::LightChoice, nth), point) else {
                     continue;
                 };
                 let to = q.p - at.p;
@@ -51,7 +51,7 @@ impl Estimator for Surfaces {
                     LightSample { wi, end, distance, radiance, density, prim: q.prim, cos: facing.abs() };
                 let carried: Rgb = carried * at.throughput;
                 if carried.is_finite() && !carried.is_black() {
-                    out.segment(at, &sample, plane_of(at), carried);
+                    out.segment(at, nth.j, &sample, plane_of(at), carried);
                 }
             }
         }

@@ -142,7 +142,7 @@ fn light_seen(
             let u = sampler.pair(stream, index, of, Use::LightPoint.at(0));
             let sample = scene.lights()[light as usize].sample(&at, u, LightPoints::Area);
             if let Some(s) = sample.filter(|s| at.sees_side(s.wi)) {
-                proposals.segment(&at, &s, Planes::NONE, Rgb::WHITE);
+                proposals.segment(&at, 0, &s, Planes::NONE, Rgb::WHITE);
             }
         }
         visibility.occluded(proposals.segments.as_segments(), blocked);

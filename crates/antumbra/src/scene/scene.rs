@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use antumbra_math::{Rgb, Transform, Vec3, World as Direction, hash};
-use antumbra_trace::{Bits, Hits, Passes, PrimId, Segments, Triangles, Visibility, World};
+use antumbra_trace::{Bits, Hits, Passes, PrimId, Segments, SimdLevel, Triangles, Visibility, World};
 
 use super::{Alpha, Body, Camera, Material, Message};
 use crate::light::{Light, LightId};
@@ -152,6 +152,17 @@ impl Scene {
     pub fn from_infinity(&self, wi: Direction) -> impl Iterator<Item = (LightId, Rgb)> + '_ {
         let infinite = self.lights.iter().enumerate().filter(|(_, l)| l.is_infinite());
         infinite.filter_map(move |(i, l)| l.hit(Direction::ZERO, wi).map(|h| (i as LightId, h.radiance)))
+    }
+
+    /// Light that every light would send to `p` along `wi`, were nothing in the way.
+    pub fn from_everywhere(&self, p: Vec3, wi: Direction) -> impl Iterator<Item = (LightId, Rgb)> + '_ {
+        let met = move |(i, l): (usize, &Light)| l.hit(p, wi).map(|h| (i as LightId, h.radiance));
+        self.lights.iter().enumerate().filter_map(met)
+    }
+
+    /// The same scene asked at another SIMD level, with the same answers (copies the tree).
+    pub fn at_level(&self, level: SimdLevel) -> Scene {
+        Scene { world: Arc::new(World::clone(&self.world).with_level(level)), ..self.clone() }
     }
 
     /// The same scene with only the lights of these names; `Err` = a name that no light has.

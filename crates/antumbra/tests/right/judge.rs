@@ -49,6 +49,14 @@ impl Judge {
         self.trials.push(trial);
     }
 
+    /// Compares two estimates of the same thing with known errors.
+    pub fn agree(&mut self, name: String, a: [f64; 2], b: [f64; 2]) {
+        let error = (a[1] * a[1] + b[1] * b[1]).sqrt();
+        // Sums of 2⁻²⁴ roundings along both ways.
+        let slack = 4e-6 * a[0].abs();
+        self.add(Trial { name, estimate: a[0], error, dof: f64::INFINITY, truth: b[0], slack });
+    }
+
     /// Fails if a comparison is less likely than `alpha` allows over all of them.
     pub fn verdict(mut self, test: &str, alpha: f64) {
         let each = sidak(alpha, self.trials.len());

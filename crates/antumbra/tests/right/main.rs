@@ -2,10 +2,14 @@
 //!
 //! Every test states one α for all its comparisons (Šidák); `ANTUMBRA_STRESS=1` takes more rays.
 
+mod agree;
+mod bits;
 mod closed;
 mod closed_ao;
 mod judge;
 mod lengths;
+mod pictures;
+mod rooms;
 mod scenes;
 mod sky;
 mod table;
