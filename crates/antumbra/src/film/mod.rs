@@ -115,8 +115,8 @@ impl Film {
                 let delta = value - r.mean[cell][c];
                 r.mean[cell][c] += delta * (weight / total);
                 r.scatter[cell][c] += weight * delta * (value - r.mean[cell][c]);
-                r.before[cell][c] = sum[c];
             }
+            r.before[cell] = *sum;
         }
         r.samples_before = self.samples;
         r.closed += 1;

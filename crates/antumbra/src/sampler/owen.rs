@@ -42,7 +42,7 @@ impl Sampler for Owen {
 #[inline]
 fn second_half(index: u32) -> u32 {
     const COLUMNS: [u32; 8] = columns([0x5b, 0x72, 0xec, 0x18, 0x90, 0x60, 0xc0, 0x80]);
-    COLUMNS.iter().enumerate().fold(0, |x, (bit, column)| x ^ ((index >> bit) & 0x0101_0101) * column)
+    COLUMNS.iter().enumerate().fold(0, |x, (bit, column)| x ^ (((index >> bit) & 0x0101_0101) * column))
 }
 
 /// Columns of a matrix given by its rows.
