@@ -86,4 +86,4 @@ def per_row(name: str, value: Any, count: int) -> NDArray[np.float64]:
 
 
 def _singular(name: str) -> str:
-    return name[:-1] if name.endswith("s") else name
+    return {"vertices": "vertex"}.get(name, name.removesuffix("s"))

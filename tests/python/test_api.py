@@ -1,0 +1,285 @@
+"""The Python package as its listing has it: scenes, pictures, estimates, hits, progress, cancelling."""
+
+from __future__ import annotations
+
+import math
+import pickle
+import threading
+import time
+
+import numpy as np
+import pytest
+
+import antumbra as am
+from conftest import FACES, SQUARE
+
+
+def test_a_point_light_over_a_floor_is_its_formula(floor):
+    scene = am.Scene()
+    scene.add_mesh(SQUARE, FACES)
+    scene.add_light(am.lights.Point((0, 2, 0), intensity=(8.0, 4.0, 2.0)))
+    points = np.array([[0.0, 0, 0], [0.5, 0, 0.5]])
+    irradiance = scene.irradiance(points, (0.0, 1, 0), shadow_rays=4, estimator="area")
+    distance = np.linalg.norm(points - [0, 2, 0], axis=1)
+    exact = np.array([8.0, 4.0, 2.0]) * (2 / distance**3)[:, None]
+    # f32 arithmetic: a few units in the last place.
+    np.testing.assert_allclose(irradiance, exact, rtol=1e-5)
+    # The samples differ in nothing: what is left is the rounding of sums.
+    assert irradiance.standard_error.max() < 1e-5
+
+
+def test_a_square_lamp_is_its_form_factor(floor):
+    """E = L·(2/π)·… of a centred parallel square, from the corner formula (Howell, C-11, four quarters)."""
+    a = b = 0.5 / 2.0
+    x, y = a / math.sqrt(1 + a * a), b / math.sqrt(1 + b * b)
+    quarter = (x * math.atan(b / math.sqrt(1 + a * a)) + y * math.atan(a / math.sqrt(1 + b * b))) / (
+        2 * math.pi
+    )
+    exact = 3.0 * math.pi * 4 * quarter
+    found = floor.irradiance([[0.0, 0, 0]], [[0.0, 1, 0]], shadow_rays=4096, estimator="area")
+    # Two-sided z-test, α = 1e-6 (|z| < 4.9), with 16 replicates: Student's t of 15 degrees has its α/2 point at 7.9.
+    assert abs(found[0, 0] - exact) < 7.9 * found.standard_error[0, 0]
+    assert found.standard_error[0, 0] < 0.01 * exact
+
+
+def test_an_open_floor_is_open(floor):
+    openness = floor.ambient_occlusion([[0.0, 0, 0]], [[0.0, 1, 0]], rays=64, radius=1.0)
+    assert openness.shape == (1,) and openness[0] == 1
+    assert floor.ambient_occlusion([[0.0, 0, 0]], [[0.0, 1, 0]], rays=256)[0] < 1
+    assert floor.visible_fraction([[0.0, 0, 0]], [[0.0, 1, 0]], light="lamp")[0] == 1
+
+
+def test_hits_know_where_they_are(floor):
+    hit = floor.closest_hit([[0.25, 1, 0.5], [5, 1, 5]], [[0.0, -2, 0], [0, -1, 0]])
+    assert hit.t[0] == 0.5 and np.isinf(hit.t[1])
+    assert hit.mesh[0] == 0 and hit.mesh[1] == 0xFFFF_FFFF and hit.primitive[1] == 0xFFFF_FFFF
+    np.testing.assert_allclose(hit.position[0], [0.25, 0, 0.5], atol=1e-7)
+    np.testing.assert_array_equal(hit.normal[0], [0, 1, 0])
+    assert np.isnan(hit.position[1]).all() and np.isnan(hit.normal[1]).all()
+    assert repr(hit) == "<Hit (2): 1 hit>"
+    weights = np.array([1 - hit.uv[0].sum(), *hit.uv[0]])
+    np.testing.assert_allclose(weights @ SQUARE[FACES[hit.primitive[0]]], [0.25, 0, 0.5], atol=1e-6)
+
+
+def test_receivers_go_into_every_query(floor):
+    origins, directions = floor.camera_rays((8, 8), eye=(0, 1.5, 0.1), look_at=(0, 0, 0))
+    hit = floor.closest_hit(origins, directions)
+    at = hit.receivers
+    assert len(at) == 64
+    assert not floor.occluded(at[hit.mesh == 0], (0.0, 1.0, 0.0)).any()
+    lit = floor.irradiance(at, shadow_rays=4)
+    assert lit.shape == (64, 3)
+    missed = np.isinf(hit.t)
+    assert (np.asarray(lit)[missed] == 0).all()
+    assert (np.asarray(floor.ambient_occlusion(at, rays=4))[missed] == 1).all()
+    below = floor.occluded(at[~missed], np.tile([0.0, -5, 0], ((~missed).sum(), 1)))
+    assert below[hit.mesh[~missed] == 0].all(), "the own surface blocks what lies behind it"
+
+
+def test_the_brdf_of_a_diffuse_floor_is_rho_over_pi(floor):
+    hit = floor.closest_hit([[0.0, 1, 0]], [[0.0, -1, 0]])
+    up = np.array([[0.0, 1, 0]])
+    np.testing.assert_allclose(floor.brdf(hit, up, up), 0.5 / math.pi, rtol=1e-6)
+    assert (floor.brdf(hit.receivers, up, -up) == 0).all()
+
+
+def test_a_picture_has_everything_that_was_asked_for(floor, tmp_path):
+    image = floor.render(size=(20, 10), viewing_rays=16, aov="albedo,depth", estimator="area", eye=(0, 1, 2))
+    assert image.pixels.shape == (10, 20, 3) and image.pixels.dtype == np.float32
+    assert image.standard_error.shape == (10, 20, 3)
+    assert set(image.aov) == {"albedo", "depth"}
+    assert image.aov["depth"].shape == (10, 20) and image.aov["albedo"].shape == (10, 20, 3)
+    assert image.metadata["antumbra.estimator"] == "area" and image.metadata["antumbra.seed"] == "0"
+    assert (image.passes_done, image.passes) == (16, 16) and image.shadow_rays > 0 and image.rays > 0
+    np.testing.assert_array_equal(np.asarray(image), image.pixels)
+    assert repr(image).startswith("<Image floor: 20 × 10 · standard error")
+    assert "<img" in image._repr_html_() and "floor" in image._repr_html_()
+    image.save(tmp_path / "floor.png")
+    image.save(tmp_path / "floor.exr")
+    # Half floats have 11 significant bits.
+    np.testing.assert_allclose(am.load_image(tmp_path / "floor.exr"), image.pixels, rtol=2**-11, atol=1e-7)
+    with pytest.raises(ValueError, match=r"a picture ends in \.exr or \.png"):
+        image.save(tmp_path / "floor.jpg")
+    with pytest.raises(OSError, match="no folder"):
+        image.save(tmp_path / "no" / "floor.png")
+
+
+def test_a_written_exr_is_read_by_the_official_library(floor, tmp_path):
+    open_exr = pytest.importorskip("OpenEXR")
+    image = floor.render(size=(20, 10), viewing_rays=4, aov="position", eye=(0, 1, 2))
+    image.save(tmp_path / "floor.exr")
+    with open_exr.File(str(tmp_path / "floor.exr"), separate_channels=True) as file:
+        channels = file.channels()
+        assert {"R", "G", "B", "position.R", "position.G", "position.B"} <= set(channels)
+        np.testing.assert_allclose(channels["G"].pixels, image.pixels[..., 1], rtol=2**-11, atol=1e-7)
+        np.testing.assert_array_equal(channels["position.R"].pixels, image.aov["position"][..., 0])
+        assert file.header()["antumbra.seed"] == "0"
+
+
+def test_pictures_and_estimates_pickle(floor):
+    image = floor.render(size=(8, 8), viewing_rays=4, aov="depth")
+    again = pickle.loads(pickle.dumps(image))
+    np.testing.assert_array_equal(again.pixels, image.pixels)
+    np.testing.assert_array_equal(again.aov["depth"], image.aov["depth"])
+    assert (again.hash, again.metadata, repr(again)) == (image.hash, image.metadata, repr(image))
+    assert again.png() == image.png()
+    estimate = floor.irradiance([[0.0, 0, 0]], [[0.0, 1, 0]])
+    assert repr(pickle.loads(pickle.dumps(estimate))) == repr(estimate)
+
+
+def test_an_estimate_acts_as_its_array(floor):
+    estimate = floor.irradiance(np.zeros((5, 3)), (0.0, 1, 0), shadow_rays=8)
+    values = np.asarray(estimate)
+    for plain in (
+        estimate + 1,
+        2 * estimate,
+        np.sqrt(estimate),
+        estimate.mean(axis=0),
+        estimate[1:3],
+        -estimate,
+    ):
+        assert type(plain) is np.ndarray
+    np.testing.assert_array_equal(estimate + estimate, 2 * values)
+    np.testing.assert_array_equal(np.concatenate([estimate, estimate])[:5], values)
+    assert (len(estimate), estimate.shape, estimate.ndim, estimate.size) == (5, (5, 3), 2, 15)
+    assert (estimate >= 0).all() and float(np.sum(estimate)) == values.sum()
+    assert repr(estimate).startswith("<Estimate (5, 3) of irradiance: mean ") and "8 rays each" in repr(
+        estimate
+    )
+    assert "<table>" in estimate._repr_html_()
+    with pytest.raises(AttributeError):
+        _ = estimate.nothing
+
+
+def test_meshes_of_other_libraries_are_taken():
+    class Trimesh:
+        vertices, faces = SQUARE, FACES
+
+    class Open3D:
+        vertices, triangles = SQUARE.tolist(), FACES.tolist()
+
+    for mesh in (Trimesh(), Open3D()):
+        scene = am.Scene()
+        scene.add_mesh(mesh)
+        assert scene.occluded([[0.0, 1, 0]], [[0.0, -1, 0]])[0]
+
+
+def test_every_light_shape_and_material_is_made():
+    scene = am.Scene()
+    m, l, s = am.materials, am.lights, am.shapes
+    for x, material in enumerate(
+        (m.Diffuse(0.2), m.Mirror(0.9), m.MetallicRoughness((1, 0.8, 0.3), 1.0, 0.3))
+    ):
+        scene.add_shape(s.Sphere((x, 0.5, 0), 0.4), material=material)
+    scene.add_shape(s.Disk((0, 0, 0), (0, 1, 0), 5))
+    scene.add_shape(s.Cylinder((0, 0, 2), (0, 1, 2), 0.2))
+    scene.add_shape(s.Rectangle((-1, 0, -2), (2, 0, 0), (0, 1, 0)), emission=(1, 0.5, 0.2))
+    lights = [
+        l.Point((0, 3, 0), 1), l.Spot((0, 3, 0), (0, -1, 0), 5, 0.2, 0.4), l.Directional((0, 1, 1), 0.5),
+        l.Spot((0, 3, 0), (0, -1, 0), 5, 0.2, 0.4, range=9), l.Sun((0, 1, 0.2), 0.00465, 1e4),
+        l.Rectangle((0, 4, 0), (1, 0, 0), (0, 0, 1)), l.Disk((0, 4, 0), (0, -1, 0), 0.5, 2),
+        l.Triangle((0, 4, 0), (1, 4, 0), (0, 4, 1), 2), l.Sphere((3, 3, 3), 0.5, 2), l.Environment(0.1),
+    ]  # fmt: skip
+    for i, light in enumerate(lights):
+        scene.add_light(light, name=f"light {i}")
+    image = scene.render(size=(16, 12), viewing_rays=4, estimator="area")
+    assert np.isfinite(image.pixels).all() and image.pixels.max() > 0
+    assert scene.messages == []
+    kinds = {light["kind"] for light in scene.info()["lights"]}
+    assert kinds == {"point", "spot", "directional", "sun", "area", "environment"}
+
+
+def test_an_environment_of_pixels_shines_from_where_they_are():
+    """Upper half 2, lower half 0: an upward floor gets π·2, a downward one nothing."""
+    picture = np.zeros((16, 32, 3))
+    picture[:8] = 2.0
+    scene = am.Scene()
+    scene.add_light(am.lights.Environment(picture, scale=0.5))
+    normals = np.array([[0.0, 1, 0], [0, -1, 0]])
+    found = scene.irradiance(np.zeros((2, 3)), normals, shadow_rays=1024, estimator="area")
+    # Student's t with 15 degrees of freedom, α = 1e-6; 1 % for the picture's bilinear edge at the horizon.
+    assert abs(found[0, 0] - math.pi) < 7.9 * found.standard_error[0, 0] + 0.01 * math.pi
+    assert found[1, 0] < 0.02 * math.pi
+
+
+def test_progress_is_told_and_can_stop():
+    scene = am.builtin("pillars")
+    states = []
+
+    def watch(state):
+        states.append(state)
+        return state.passes_done < 8
+
+    image = scene.render(size=(320, 240), viewing_rays=4096, progress=watch)
+    assert 8 <= image.passes_done < image.passes == 4096
+    assert [s.done for s in states] == sorted(s.done for s in states)
+    assert states[-1].passes == 4096
+    again = scene.render(
+        size=(320, 240), viewing_rays=4096, progress=lambda s: s.passes_done < image.passes_done
+    )
+    if again.passes_done == image.passes_done:
+        assert again.hash == image.hash, "the same number of passes gives the same bits"
+
+
+def test_what_the_callback_raises_comes_out():
+    def watch(_):
+        raise RuntimeError("enough")
+
+    with pytest.raises(RuntimeError, match="enough"):
+        am.builtin("pillars").render(size=(64, 48), viewing_rays=256, progress=watch)
+
+
+def test_other_threads_run_while_a_picture_is_rendered():
+    """The lock is free: a counting thread moves on during one call."""
+    scene = am.builtin("pillars")
+    ticks, over = [0], threading.Event()
+
+    def count():
+        while not over.is_set():
+            ticks[0] += 1
+            time.sleep(0.001)
+
+    counter = threading.Thread(target=count)
+    counter.start()
+    before = ticks[0]
+    scene.render(size=(160, 120), viewing_rays=16)
+    during = ticks[0] - before
+    over.set()
+    counter.join()
+    assert during >= 3
+
+
+def test_scenes_say_what_they_are(floor):
+    assert repr(floor) == "<Scene floor: 4 triangles, 1 area light>"
+    assert repr(am.builtin("pillars", light_size=0.5)).startswith("<Scene pillars: ")
+    assert set(am.builtins()) >= {"cornell-box", "pillars", "eclipse", "corner", "many-lights", "sky-dome"}
+    with pytest.raises(am.OptionError, match='did you mean "pillars"'):
+        am.builtin("pilars")
+    with pytest.raises(am.OptionError, match='did you mean "light-size"'):
+        am.builtin("pillars", light_sise=1)
+
+
+def test_an_empty_scene_is_told(floor):
+    with pytest.raises(am.SceneError, match="nothing to render"):
+        am.Scene().render()
+
+
+def test_a_broken_file_has_file_place_and_hint(tmp_path):
+    file = tmp_path / "broken.gltf"
+    file.write_text(
+        '{"asset": {"version": "2.0"}, "scenes": [{"nodes": [7]}], "nodes": [{}]}', encoding="utf-8"
+    )
+    with pytest.raises(am.SceneError) as found:
+        am.load(file)
+    assert found.value.file == str(file) and found.value.place and found.value.what
+    assert str(found.value).startswith(f"{file}: ")
+
+
+def test_a_loaded_scene_takes_more_lights(data):
+    scene = am.load(data / "scenes" / "gltf" / "BoxInterleaved.glb")
+    assert [light["name"] for light in scene.info()["lights"]] == ["sky"], (
+        "an unlit file gets the default sky"
+    )
+    scene.add_light(am.lights.Point((3, 3, 3), 10.0), name="mine")
+    assert [light["name"] for light in scene.info()["lights"]] == ["mine"]
+    assert scene.render(size=(8, 8), viewing_rays=4, light="mine").pixels.max() > 0

@@ -1,0 +1,87 @@
+"""Ctrl-C: the picture so far is kept, the exit code is 130, and a query inside Python ends with KeyboardInterrupt."""
+
+from __future__ import annotations
+
+import re
+import signal
+import subprocess
+import sys
+import time
+
+import antumbra as am
+
+LONG = ["--size", "640x480", "--viewing-rays", "100000", "--shadow-rays", "1"]
+
+
+def interrupted(command, folder, after):
+    """Runs it, presses Ctrl-C as soon as `after` appears on its standard output or error."""
+    process = subprocess.Popen(command, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    time.sleep(after)
+    process.send_signal(signal.SIGINT)
+    out, err = process.communicate(timeout=60)
+    return process.returncode, out, err
+
+
+def test_ctrl_c_keeps_the_picture_so_far(tmp_path):
+    command = [
+        sys.executable,
+        "-m",
+        "antumbra",
+        "render",
+        "pillars",
+        *LONG,
+        "--estimator",
+        "area",
+        "-o",
+        "p.png",
+    ]
+    # Long enough for the first passes even on a busy machine; if there were none, nothing is written and it says so.
+    code, out, err = interrupted(command, tmp_path, after=8.0)
+    assert code == 130, err
+    assert out == "" and "Traceback" not in err
+    done = re.search(r"stopped after (\d+) of 100000 passes; p\.png holds them\n$", err)
+    assert done and int(done[1]) > 0, err
+    assert am.load_image(tmp_path / "p.png").max() > 0
+    assert [p.name for p in tmp_path.iterdir()] == ["p.png"]
+
+
+QUERY = """
+import numpy as np, antumbra as am
+scene = am.builtin("pillars")
+points = np.random.default_rng(1).uniform(-1, 1, (1_000_000, 3))
+print("asking", flush=True)
+try:
+    scene.ambient_occlusion(points, (0.0, 1, 0), rays=100_000)
+except KeyboardInterrupt:
+    print("interrupted", flush=True)
+"""
+
+
+def test_ctrl_c_ends_a_query(tmp_path):
+    process = subprocess.Popen([sys.executable, "-c", QUERY], stdout=subprocess.PIPE, text=True)
+    assert process.stdout.readline() == "asking\n"
+    time.sleep(2.0)
+    process.send_signal(signal.SIGINT)
+    out, _ = process.communicate(timeout=60)
+    assert (process.returncode, out) == (0, "interrupted\n")
+
+
+RENDER = """
+import signal, threading, os, time
+import antumbra as am
+scene = am.builtin("pillars")
+threading.Timer(6.0, os.kill, (os.getpid(), signal.SIGINT)).start()
+try:
+    scene.render(size=(64, 48), viewing_rays=100_000_000)
+except KeyboardInterrupt as stopped:
+    assert isinstance(stopped, am.RenderStopped)
+    assert 0 < stopped.image.passes_done < stopped.image.passes
+    print(stopped.image.pixels.max() > 0)
+"""
+
+
+def test_ctrl_c_inside_python_keeps_the_image():
+    done = subprocess.run(
+        [sys.executable, "-c", RENDER], capture_output=True, text=True, timeout=120, check=False
+    )
+    assert done.stdout == "True\n", done.stderr
