@@ -166,7 +166,7 @@ def test_meshes_of_other_libraries_are_taken():
 
 def test_every_light_shape_and_material_is_made():
     scene = am.Scene()
-    m, l, s = am.materials, am.lights, am.shapes
+    m, s = am.materials, am.shapes
     for x, material in enumerate(
         (m.Diffuse(0.2), m.Mirror(0.9), m.MetallicRoughness((1, 0.8, 0.3), 1.0, 0.3))
     ):
@@ -175,11 +175,17 @@ def test_every_light_shape_and_material_is_made():
     scene.add_shape(s.Cylinder((0, 0, 2), (0, 1, 2), 0.2))
     scene.add_shape(s.Rectangle((-1, 0, -2), (2, 0, 0), (0, 1, 0)), emission=(1, 0.5, 0.2))
     lights = [
-        l.Point((0, 3, 0), 1), l.Spot((0, 3, 0), (0, -1, 0), 5, 0.2, 0.4), l.Directional((0, 1, 1), 0.5),
-        l.Spot((0, 3, 0), (0, -1, 0), 5, 0.2, 0.4, range=9), l.Sun((0, 1, 0.2), 0.00465, 1e4),
-        l.Rectangle((0, 4, 0), (1, 0, 0), (0, 0, 1)), l.Disk((0, 4, 0), (0, -1, 0), 0.5, 2),
-        l.Triangle((0, 4, 0), (1, 4, 0), (0, 4, 1), 2), l.Sphere((3, 3, 3), 0.5, 2), l.Environment(0.1),
-    ]  # fmt: skip
+        am.lights.Point((0, 3, 0), 1),
+        am.lights.Spot((0, 3, 0), (0, -1, 0), 5, 0.2, 0.4),
+        am.lights.Directional((0, 1, 1), 0.5),
+        am.lights.Spot((0, 3, 0), (0, -1, 0), 5, 0.2, 0.4, range=9),
+        am.lights.Sun((0, 1, 0.2), 0.00465, 1e4),
+        am.lights.Rectangle((0, 4, 0), (1, 0, 0), (0, 0, 1)),
+        am.lights.Disk((0, 4, 0), (0, -1, 0), 0.5, 2),
+        am.lights.Triangle((0, 4, 0), (1, 4, 0), (0, 4, 1), 2),
+        am.lights.Sphere((3, 3, 3), 0.5, 2),
+        am.lights.Environment(0.1),
+    ]
     for i, light in enumerate(lights):
         scene.add_light(light, name=f"light {i}")
     image = scene.render(size=(16, 12), viewing_rays=4, estimator="area")

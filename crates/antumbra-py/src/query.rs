@@ -24,6 +24,7 @@ use crate::{errors, settings};
 
 type Words = Vec<(String, String)>;
 type Table<'py> = Bound<'py, PyArray2<f32>>;
+type Doubles<'py> = Bound<'py, PyArray2<f64>>;
 type Column<'py> = Bound<'py, PyArray1<f32>>;
 
 #[pymethods]
@@ -175,11 +176,7 @@ impl PyScene {
     }
 
     /// Origins and unit directions of one viewing ray through each pixel's centre, (H·W, 3) float64 each.
-    fn camera_rays<'py>(
-        &self,
-        py: Python<'py>,
-        words: Words,
-    ) -> PyResult<(Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<f64>>)> {
+    fn camera_rays<'py>(&self, py: Python<'py>, words: Words) -> PyResult<(Doubles<'py>, Doubles<'py>)> {
         let scene = self.scene(py)?;
         let rows = render::camera_rays(&scene, &settings::parse(&words)?)
             .map_err(|e| errors::scene(&e, self.file()))?;
