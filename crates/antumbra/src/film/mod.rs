@@ -110,8 +110,8 @@ impl Film {
         }
         let total = f64::from(self.samples);
         for (cell, sum) in beauty.iter().enumerate() {
-            for c in 0..3 {
-                let value = (sum[c] - r.before[cell][c]) / weight;
+            for (c, sum) in sum.iter().enumerate() {
+                let value = (sum - r.before[cell][c]) / weight;
                 let delta = value - r.mean[cell][c];
                 r.mean[cell][c] += delta * (weight / total);
                 r.scatter[cell][c] += weight * delta * (value - r.mean[cell][c]);
