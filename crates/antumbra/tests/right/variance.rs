@@ -18,6 +18,9 @@ use super::judge::{Judge, Trial, size};
 use super::scenes::{Built, build, build_with, parallelogram, receiver};
 use super::table::{Case, Way, cases_of};
 
+/// A function of a point of the square and a random offset.
+type Integrand = fn([f32; 2], f32) -> f64;
+
 /// The variance of independent values against its truth; its error by their fourth moment.
 fn of_values(name: &str, values: &[f64], truth: f64) -> Trial {
     let n = values.len() as f64;
@@ -147,7 +150,7 @@ fn convergence_has_the_exact_constants() {
         let diagonal = |[u, v]: [f32; 2], _: f32| f64::from(u + v < 1.0);
         let edge = |[u, _]: [f32; 2], offset: f32| f64::from(u < offset);
         let smooth = |[u, _]: [f32; 2], _: f32| f64::from(u);
-        let (kind, of, f): (_, u32, fn([f32; 2], f32) -> f64) = match case.id.as_str() {
+        let (kind, of, f): (_, u32, Integrand) = match case.id.as_str() {
             "CF37a" => (Random, 16, diagonal),
             "CF37b" => (Stratified, 16, diagonal),
             "CF37c" => (Stratified, 256, diagonal),
