@@ -50,7 +50,7 @@ impl SimdLevel {
     }
 
     #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
-    fn token(self) -> Option<Level> {
+    pub(crate) fn token(self) -> Option<Level> {
         let best = Level::new();
         match self {
             SimdLevel::Auto => Some(best),
@@ -62,7 +62,7 @@ impl SimdLevel {
     }
 
     #[cfg(not(any(target_arch = "x86", target_arch = "x86_64")))]
-    fn token(self) -> Option<Level> {
+    pub(crate) fn token(self) -> Option<Level> {
         match self {
             SimdLevel::Auto => Some(Level::new()),
             SimdLevel::Baseline => Some(Level::baseline()),

@@ -96,6 +96,34 @@ pub(crate) struct Interval {
     pub to: [f32; WIDTH],
 }
 
+/// w_i = d·(e_i × (A_i + A_i+1)) of the three edges with their common bound, and the differences on the way.
+struct Edges<S: Simd> {
+    w: [f32x8<S>; 3],
+    bound: f32x8<S>,
+    a: V3<S>,
+    e0: V3<S>,
+    e1: V3<S>,
+}
+
+impl<S: Simd> Edges<S> {
+    #[inline(always)]
+    fn of<const PLACED: bool>(simd: S, block: &TriangleBlock, ray: &TriangleRay<S>) -> Edges<S> {
+        let [va, vb, vc] = &block.corners;
+        let (va, vb, vc) = (V3::load(simd, va), V3::load(simd, vb), V3::load(simd, vc));
+        let (a, b, c) = (va.minus(ray.o), vb.minus(ray.o), vc.minus(ray.o));
+        let (e0, e1, e2) = (vb.minus(va), vc.minus(vb), va.minus(vc));
+        let w0 = ray.d.dot(e0.cross(a.plus(b)));
+        let w1 = ray.d.dot(e1.cross(b.plus(c)));
+        let w2 = ray.d.dot(e2.cross(c.plus(a)));
+        let edge = f32x8::load_array_ref(simd, &block.edge);
+        let mut size = a.abs().largest() + edge;
+        if PLACED {
+            size += ray.off;
+        }
+        Edges { w: [w0, w1, w2], bound: ray.edge * edge * size, a, e0, e1 }
+    }
+}
+
 /// On which sides of the edges the line passes, and what the distance is computed from.
 struct Sides<S: Simd> {
     /// Lanes that the line does not certainly pass by.
@@ -110,19 +138,7 @@ struct Sides<S: Simd> {
 impl<S: Simd> Sides<S> {
     #[inline(always)]
     fn of<const PLACED: bool>(simd: S, block: &TriangleBlock, ray: &TriangleRay<S>) -> Sides<S> {
-        let [va, vb, vc] = &block.corners;
-        let (va, vb, vc) = (V3::load(simd, va), V3::load(simd, vb), V3::load(simd, vc));
-        let (a, b, c) = (va.minus(ray.o), vb.minus(ray.o), vc.minus(ray.o));
-        let (e0, e1, e2) = (vb.minus(va), vc.minus(vb), va.minus(vc));
-        let w0 = ray.d.dot(e0.cross(a.plus(b)));
-        let w1 = ray.d.dot(e1.cross(b.plus(c)));
-        let w2 = ray.d.dot(e2.cross(c.plus(a)));
-        let edge = f32x8::load_array_ref(simd, &block.edge);
-        let mut size = a.abs().largest() + edge;
-        if PLACED {
-            size += ray.off;
-        }
-        let bound = ray.edge * edge * size;
+        let Edges { w: [w0, w1, w2], bound, a, e0, e1 } = Edges::of::<PLACED>(simd, block, ray);
         let (low, high) = (w0.min(w1).min(w2), w0.max(w1).max(w2));
         let outside = low.simd_lt(-bound) & high.simd_gt(bound);
         let inside = low.simd_gt(bound) | high.simd_lt(-bound);
@@ -184,3 +200,7 @@ impl<S: Simd> Along<S> {
 
 /// 2⁻²⁰
 const SLACK: f32 = 1.0 / 1_048_576.0;
+
+#[cfg(test)]
+#[path = "filter_tests.rs"]
+mod tests;
