@@ -261,6 +261,9 @@ impl<S: Simd, M: Masks> VisitAny<S> for PlaceVisit<'_, M> {
         }
         false
     }
+
+    #[inline(always)]
+    fn fetch_leaf(&self, _: usize) {}
 }
 
 impl<S: Simd, M: Masks> VisitNearest<S> for PlaceVisit<'_, M> {

@@ -66,7 +66,12 @@ fn race(embree: &Embree, scene: &scenes::Scene, lines: &mut Vec<String>) {
     println!("\n{}: {n} triangles", scene.name);
     let mut seconds = [Vec::new(), Vec::new(), Vec::new()];
     let mut bytes = [0, 0, 0];
-    let rounds = if n > 100_000 { 3 } else { ROUNDS };
+    let only = std::env::var("ANTUMBRA_CLASS").unwrap_or_default();
+    let rounds = match n {
+        _ if !only.is_empty() => 1,
+        0..100_000 => ROUNDS,
+        _ => 3,
+    };
     for _ in 0..rounds {
         let (world, ours) = build(&scene.mesh);
         seconds[0].push(ours);
@@ -92,7 +97,6 @@ fn race(embree: &Embree, scene: &scenes::Scene, lines: &mut Vec<String>) {
     ));
     let world = build(&scene.mesh).0;
     let peers = [embree.scene(&scene.mesh, false), embree.scene(&scene.mesh, true)];
-    let only = std::env::var("ANTUMBRA_CLASS").unwrap_or_default();
     for class in rays::classes(scene, &world).into_iter().filter(|c| only.is_empty() || c.name == only) {
         lines.push(measure(scene.name, &world, &peers, &class));
     }

@@ -14,6 +14,13 @@ const FAR_SLACK: f32 = 1.0 + 1.0 / 1_048_576.0;
 pub(crate) trait VisitAny<S: Simd> {
     /// Something in leaf block `leaf` blocks the line.
     fn any(&mut self, simd: S, leaf: usize) -> bool;
+    /// Leaf block `leaf` is visited soon.
+    fn fetch_leaf(&self, leaf: usize);
+    /// `child` is visited soon.
+    #[inline(always)]
+    fn fetch(&self, nodes: &[Node], child: Child) {
+        if child.is_leaf() { self.fetch_leaf(child.index()) } else { prefetch(nodes, child.index()) }
+    }
 }
 
 /// What a closest-hit query does at a leaf block.
@@ -42,6 +49,22 @@ fn meet<S: Simd>(simd: S, node: &Node, ray: &BoxRay<S>, tmax: f32x8<S>) -> (u32,
     let leave = x1.min(y1).min(z1.min(tmax));
     let pass = enter.simd_le(leave * FAR_SLACK);
     (pass.to_bitmask() as u32, enter)
+}
+
+/// Asks for the memory of element `i`; what is not there is not asked for.
+#[inline(always)]
+pub(crate) fn prefetch<T>(of: &[T], i: usize) {
+    #[cfg(target_arch = "x86_64")]
+    if let Some(element) = of.get(i) {
+        use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
+        let first = std::ptr::from_ref(element).cast::<i8>();
+        for line in 0..size_of::<T>() / 64 {
+            // SAFETY: a prefetch has no effect on memory or registers and cannot fault; the address is inside `element`.
+            unsafe { _mm_prefetch::<_MM_HINT_T0>(first.add(64 * line)) };
+        }
+    }
+    #[cfg(not(target_arch = "x86_64"))]
+    let _ = (of, i);
 }
 
 /// A stack that is not cleared. Holds at most `N` elements: the pushes are bounded by the depth of the tree.
@@ -101,6 +124,7 @@ pub(crate) fn any_hit<S: Simd>(
         }
         if left != 0 {
             stack.push((at as u32, left));
+            visit.fetch(nodes, nodes[at].child[left.trailing_zeros() as usize % WIDTH]);
         }
         at = child.index();
         left = meet(simd, &nodes[at], &ray, tmax).0;

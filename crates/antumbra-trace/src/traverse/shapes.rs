@@ -74,6 +74,9 @@ impl<S: Simd, M: Masks> VisitAny<S> for ShapeVisit<'_, M> {
     fn any(&mut self, _: S, leaf: usize) -> bool {
         ExactVisit::any(self, leaf, &mut NotCounted)
     }
+
+    #[inline(always)]
+    fn fetch_leaf(&self, _: usize) {}
 }
 
 impl<S: Simd, M: Masks> VisitNearest<S> for ShapeVisit<'_, M> {

@@ -3,7 +3,7 @@
 use fearless_simd::Simd;
 
 use super::ask::{Ask, Best, Masks};
-use super::boxes::{VisitAny, VisitNearest};
+use super::boxes::{VisitAny, VisitNearest, prefetch};
 use super::exact::{Count, ExactVisit};
 use super::filter::{Interval, TriangleRay, Verdict, filter, filter_with_t};
 use super::measure;
@@ -43,6 +43,11 @@ impl<S: Simd, M: Masks, const PLACED: bool> VisitAny<S> for AnyTriangle<'_, S, M
     fn any(&mut self, simd: S, leaf: usize) -> bool {
         let verdict = filter::<S, PLACED>(simd, &self.of.blocks[leaf], &self.ray, self.tmax);
         verdict.lanes() != 0 && blocks(self.of, self.ask, leaf, verdict.lanes(), verdict.hit)
+    }
+
+    #[inline(always)]
+    fn fetch_leaf(&self, leaf: usize) {
+        prefetch(&self.of.blocks, leaf);
     }
 }
 
