@@ -2,7 +2,7 @@
 
 use crate::build::{BuildOptions, Item, Workers, build};
 use crate::law::shape_box;
-use crate::layout::{Bounds, TriangleBlock, WIDTH};
+use crate::layout::{Bounds, TriangleBlock, WIDTH, filled};
 use crate::place::{Place, PlaceTree};
 use crate::traverse::{Limits, Numbered, ShapeTree, TriangleTree};
 use crate::world::{Object, WorldError};
@@ -104,32 +104,23 @@ impl Draft<'_> {
         if count == 0 {
             return TriangleTree::default();
         }
-        let blank = Item::new(0, &Bounds::EMPTY, 0.0);
-        let mut items = vec![blank; count];
-        self.workers.parts(&mut items, 1 << 13, &|first, part| {
-            let mut run = runs.partition_point(|r| r.start <= first) - 1;
-            for (i, item) in part.iter_mut().enumerate() {
-                while first + i >= runs[run].start + runs[run].mesh.indices.len() {
-                    run += 1;
-                }
-                let k = first + i - runs[run].start;
-                *item = Item::triangle(runs[run].base + k as u32, runs[run].mesh.corners(k));
-            }
+        let mut items = filled(count, 1 << 13, self.workers, &|i| {
+            let run = &runs[runs.partition_point(|r| r.start <= i) - 1];
+            let k = i - run.start;
+            Item::triangle(run.base + k as u32, run.mesh.corners(k))
         });
         let tree = build(&mut items, self.options, self.workers);
         drop(items);
         let run_of = |id: PrimId| &runs[runs.partition_point(|r| r.base <= id) - 1];
-        let mut blocks = vec![TriangleBlock::new(&[]); tree.leaves.len()];
-        self.workers.parts(&mut blocks, 1 << 10, &|first, part| {
-            for (block, ids) in part.iter_mut().zip(&tree.leaves[first..]) {
-                let mut corners = [[[0.0; 3]; 3]; WIDTH];
-                let n = ids.iter().take_while(|&&id| id != NO_PRIM).count();
-                for (c, &id) in corners.iter_mut().zip(&ids[..n]) {
-                    let run = run_of(id);
-                    *c = run.mesh.corners((id - run.base) as usize);
-                }
-                *block = TriangleBlock::new(&corners[..n]);
+        let blocks = filled(tree.leaves.len(), 1 << 10, self.workers, &|leaf| {
+            let ids = &tree.leaves[leaf];
+            let mut corners = [[[0.0; 3]; 3]; WIDTH];
+            let n = ids.iter().take_while(|&&id| id != NO_PRIM).count();
+            for (c, &id) in corners.iter_mut().zip(&ids[..n]) {
+                let run = run_of(id);
+                *c = run.mesh.corners((id - run.base) as usize);
             }
+            TriangleBlock::new(&corners[..n])
         });
         let mut masked = Vec::new();
         if runs.iter().any(|r| r.masked) {

@@ -1,10 +1,12 @@
 //! The binary tree down to single primitives, and on the way back the cost of hanging each subtree into n slots.
 
+use std::mem::MaybeUninit;
+
 use super::collapse::{Summary, combine};
 use super::item::Item;
 use super::split::{self, Binning, Bins, Side};
 use super::{Measure, PARALLEL, Workers};
-use crate::layout::{Bounds, WIDTH};
+use crate::layout::{Bounds, WIDTH, roomy};
 
 /// From this depth on sets are halved, so that no input makes the tree deep: 44 + log₂ 2³² < `MAX_DEPTH`.
 const HALVE_FROM: usize = 44;
@@ -30,11 +32,21 @@ pub(crate) struct Plan {
 }
 
 impl Plan {
-    /// Builds the subtree of `items` into `nodes` (one fewer) and says what it costs.
-    pub fn divide(
+    /// The whole tree over `items`, and what it costs.
+    pub fn tree(&self, items: &mut [Item], bounds: &Bounds, centres: &Bounds) -> (Vec<Binary>, Summary) {
+        let n = items.len() - 1;
+        let mut nodes = roomy(n);
+        let whole = self.divide(items, &mut nodes.spare_capacity_mut()[..n], bounds, centres, 0);
+        // SAFETY: `divide` writes the first node it is given and hands all others on, each once: n nodes are written.
+        unsafe { nodes.set_len(n) };
+        (nodes, whole)
+    }
+
+    /// Builds the subtree of `items` into `nodes` (one fewer), writing every node, and says what it costs.
+    fn divide(
         &self,
         items: &mut [Item],
-        nodes: &mut [Binary],
+        nodes: &mut [MaybeUninit<Binary>],
         bounds: &Bounds,
         centres: &Bounds,
         depth: usize,
@@ -52,7 +64,7 @@ impl Plan {
             || self.divide(right_items, right_nodes, &b.bounds, &b.centres, depth + 1),
         );
         let summary = combine(&l, &r, (left, count - left), self.measure.half_area(bounds));
-        *node = Binary { bounds: *bounds, left: left as u32, summary };
+        node.write(Binary { bounds: *bounds, left: left as u32, summary });
         summary
     }
 

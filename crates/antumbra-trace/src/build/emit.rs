@@ -4,7 +4,7 @@ use super::PARALLEL;
 use super::binary::{Binary, Plan};
 use super::collapse::Summary;
 use super::item::{Item, bounds_of};
-use crate::layout::{Bounds, Child, LeafIds, Node, WIDTH, leaf_ids};
+use crate::layout::{Bounds, Child, LeafIds, Node, WIDTH, leaf_ids, roomy};
 
 /// A subtree in its final form; children count from its own beginning.
 #[derive(Debug, Default)]
@@ -98,6 +98,8 @@ impl Part {
                 slot[0] = Part::of(children[i], scale, plan);
             }
         });
+        part.nodes = roomy(1 + below.iter().map(|p| p.nodes.len()).sum::<usize>());
+        part.leaves = roomy(WIDTH + below.iter().map(|p| p.leaves.len()).sum::<usize>());
         let mut node = Node::EMPTY;
         part.nodes.push(node);
         for (lane, (child, mut made)) in children.iter().zip(below).enumerate() {

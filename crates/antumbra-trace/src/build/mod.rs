@@ -47,8 +47,7 @@ pub(crate) fn build(items: &mut [Item], options: &BuildOptions, workers: Workers
         measure: Measure::of(&bounds),
         workers,
     };
-    let mut nodes = vec![binary::Binary::default(); items.len() - 1];
-    let whole = plan.divide(items, &mut nodes, &bounds, &centres, 0);
+    let (nodes, whole) = plan.tree(items, &bounds, &centres);
     let scale = bounds.magnitude().max(SMALLEST_SCALE);
     let root = emit::Part::of_root(items, &nodes, scale, &plan);
     let area = plan.measure.half_area(&bounds);

@@ -2,9 +2,11 @@
 
 #![allow(clippy::needless_range_loop, reason = "an axis or a lane is the same place in several arrays")]
 
+mod memory;
 mod node;
 mod triangles;
 
+pub(crate) use memory::{filled, roomy};
 pub(crate) use node::{Child, Node, WIDTH, above, below};
 pub(crate) use triangles::TriangleBlock;
 
