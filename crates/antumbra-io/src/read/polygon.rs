@@ -4,7 +4,7 @@
 //! degenerate it is, less those with a repeated vertex.
 
 /// Tests of a point against a triangle that all polygons of a file may spend together, beyond a few for each corner.
-const TESTS: u64 = 300_000_000;
+const TESTS: u64 = 100_000_000;
 const TESTS_PER_CORNER: u64 = 64;
 
 /// Triangulates polygons; keeps its memory between them.
@@ -12,14 +12,15 @@ pub(super) struct Triangulator {
     xy: Vec<[f64; 2]>,
     next: Vec<u32>,
     previous: Vec<u32>,
-    reflex: Vec<u32>,
+    /// Corners that may block, with their places, so that most are passed over without a look elsewhere.
+    reflex: Vec<(u32, [f64; 2])>,
     tests: u64,
 }
 
 impl Triangulator {
     pub(super) fn new() -> Triangulator {
         let none = Vec::new;
-        Triangulator { xy: Vec::new(), next: none(), previous: none(), reflex: none(), tests: TESTS }
+        Triangulator { xy: Vec::new(), next: none(), previous: none(), reflex: Vec::new(), tests: TESTS }
     }
 
     /// Polygons became so intricate that the rest of one was cut as a fan.
@@ -77,7 +78,7 @@ impl Triangulator {
         self.reflex.clear();
         for i in 0..n {
             if self.turn((i + n - 1) % n, i, (i + 1) % n) <= 0.0 {
-                self.reflex.push(i as u32);
+                self.reflex.push((i as u32, self.xy[i]));
             }
         }
         let mut free = n as u64 * TESTS_PER_CORNER;
@@ -87,7 +88,8 @@ impl Triangulator {
             // After a whole round without an ear (crossing edges) any corner that turns the right way is cut, after
             // two rounds any corner.
             let turns = self.turn(before, at, after) > 0.0;
-            let ear = failed >= 2 * left
+            let ear = !self.spend(&mut free)
+                || failed >= 2 * left
                 || turns && (failed >= left || self.is_empty(before, at, after, &mut free));
             if !ear {
                 failed += 1;
@@ -104,28 +106,43 @@ impl Triangulator {
         }
     }
 
+    /// Takes one test from the polygon's own, else from those of all polygons; `false` if none is left.
+    fn spend(&mut self, free: &mut u64) -> bool {
+        let purse = if *free > 0 { free } else { &mut self.tests };
+        let left = *purse > 0;
+        *purse = purse.saturating_sub(1);
+        left
+    }
+
     /// No other corner lies in the triangle. Corners at the same place as one of the three do not count: polygons with
     /// holes pass their bridges twice.
     fn is_empty(&mut self, a: usize, b: usize, c: usize, free: &mut u64) -> bool {
+        let corners = [self.xy[a], self.xy[b], self.xy[c]];
+        let low = |k: usize| corners[0][k].min(corners[1][k]).min(corners[2][k]);
+        let high = |k: usize| corners[0][k].max(corners[1][k]).max(corners[2][k]);
+        let (x, y) = (low(0)..=high(0), low(1)..=high(1));
         let mut i = 0;
         while i < self.reflex.len() {
-            let p = self.reflex[i] as usize;
-            let gone = self.next[p] == u32::MAX;
-            if gone || self.turn(self.previous[p] as usize, p, self.next[p] as usize) > 0.0 {
+            if !self.spend(free) {
+                return true;
+            }
+            let (p, at) = (self.reflex[i].0 as usize, self.reflex[i].1);
+            if !x.contains(&at[0]) || !y.contains(&at[1]) || corners.contains(&at) {
+                i += 1;
+                continue;
+            }
+            if self.next[p] == u32::MAX {
                 self.reflex.swap_remove(i);
                 continue;
             }
             i += 1;
-            if *free > 0 {
-                *free -= 1;
-            } else if self.tests > 0 {
-                self.tests -= 1;
-            } else {
-                return true;
-            }
-            let [pa, pb, pc] = [a, b, c].map(|q| self.xy[q] == self.xy[p]);
-            let inside = !pa && !pb && !pc;
-            if inside && self.turn(a, b, p) >= 0.0 && self.turn(b, c, p) >= 0.0 && self.turn(c, a, p) >= 0.0 {
+            // Corners that became convex when their neighbours were cut block nothing any more.
+            let is_reflex = self.turn(self.previous[p] as usize, p, self.next[p] as usize) <= 0.0;
+            if is_reflex
+                && self.turn(a, b, p) >= 0.0
+                && self.turn(b, c, p) >= 0.0
+                && self.turn(c, a, p) >= 0.0
+            {
                 return false;
             }
         }
