@@ -27,6 +27,7 @@ lint: $(VENV)/.dev ## form, types and lints of both languages
 	$(BIN)/mypy
 	$(BIN)/python -m mypy.stubtest antumbra._core
 	$(BIN)/python tools/third_party.py --check
+	$(BIN)/python tools/reference.py --check
 
 stress: $(VENV)/.dev ## the tests at full size (10⁸ rays; long)
 	@ANTUMBRA_STRESS=1 tools/run_tests.sh

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
-use antumbra::light::Environment;
+use antumbra::light::{Environment, Light};
 use antumbra::math::{DMat3, DVec3, Rgb, Transform};
 use antumbra::scene::{Level, Mesh, Message, Scene, SceneBuilder, SceneError, builtin};
 use antumbra::schedule;
@@ -132,7 +132,7 @@ impl PyScene {
         };
         let options = ReadOptions { files_from, up_axis, ..ReadOptions::default() };
         let builder = py.detach(|| read_path(Path::new(path), &options)).map_err(|e| errors::read(&e))?;
-        PyScene::of(builder, path).finished(py, keep)
+        PyScene::of(on_stage(builder), path).finished(py, keep)
     }
 
     /// Adds a material and returns its number.
@@ -231,6 +231,21 @@ impl PyScene {
     /// Notes and warnings: (level, place, text).
     fn messages(&self, py: Python<'_>) -> PyResult<Vec<(&'static str, String, String)>> {
         Ok(self.scene(py)?.messages.iter().map(said).collect())
+    }
+}
+
+/// A lat-long picture alone is light and nothing to see: the built-in things stand under it.
+fn on_stage(builder: SceneBuilder) -> SceneBuilder {
+    let mut builder = builder;
+    if !builder.objects.is_empty() || !matches!(builder.lights[..], [(_, Light::Environment(_))]) {
+        return builder;
+    }
+    match builder.lights.pop() {
+        Some((_, sky)) => {
+            let SceneBuilder { name, source, messages, .. } = builder;
+            SceneBuilder { name, source, messages, ..builtin::under(sky) }
+        }
+        None => builder,
     }
 }
 

@@ -1,29 +1,22 @@
 //! A few things on a plinth under an environment, or under the picture of one that a person brings.
 
-use std::sync::Arc;
-
 use antumbra_math::{DVec3, Rgb};
 use antumbra_trace::{Shape, Triangles};
 
 use super::solids::{lathe, moved, smooth, tube, turn_y, turned};
 use super::{Builtin, Values, default_sky};
-use crate::light::{Environment, Light};
+use crate::light::Light;
 use crate::scene::{Camera, Material, SceneBuilder};
-use crate::texture::Image;
 
 pub(super) const SCENE: Builtin = Builtin {
     name: "sky-dome",
     shows: "A knot and three balls (clay, gold, mirror) under an environment that surrounds them",
     parameters: &[],
-    build: |_: &Values| under_light(default_sky()),
+    build: |_: &Values| under(default_sky()),
 };
 
-/// The same things under a lat-long picture.
-pub fn under(image: Arc<Image>) -> SceneBuilder {
-    under_light(Environment::image(image).into())
-}
-
-fn under_light(sky: Light) -> SceneBuilder {
+/// The same things under another environment.
+pub fn under(sky: Light) -> SceneBuilder {
     let mut scene = SceneBuilder::new(SCENE.name);
     let ground = scene.material(Material::diffuse(Rgb::new(0.42, 0.41, 0.39)).named("ground"));
     let plaster = scene.material(Material::diffuse(Rgb::new(0.70, 0.68, 0.65)).named("plaster"));
