@@ -9,9 +9,11 @@ import re
 import shlex
 import shutil
 
+import numpy as np
 import pytest
 
 import antumbra
+from antumbra import _core
 from conftest import ROOT
 
 MODULES = [
@@ -28,21 +30,19 @@ def test_docstrings(name):
     assert found.failed == 0
 
 
-def blocks(language):
-    """(page, code) of every fenced block of a language."""
-    fence = re.compile(rf"^```{language}\n(.*?)^```", re.MULTILINE | re.DOTALL)
-    return [
-        (page.name, code)
-        for page in PAGES
-        if page.is_file()
-        for code in fence.findall(page.read_text("utf-8"))
-    ]
+def blocks(*languages):
+    """(page, code) of every fenced block of these languages."""
+    fence = re.compile(r"^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+    found = [(page.name, fence.findall(page.read_text("utf-8"))) for page in PAGES if page.is_file()]
+    return [(page, code) for page, codes in found for language, code in codes if language in languages]
 
 
 @pytest.fixture
 def room(data, tmp_path, monkeypatch):
-    """A folder with the file that the pages call room.glb."""
+    """A folder with the files that the pages speak of: room.glb, ours.exr and reference.exr."""
     shutil.copy(data / "scenes" / "gltf" / "BoxInterleaved.glb", tmp_path / "room.glb")
+    for name, value in (("ours.exr", 0.5), ("reference.exr", 0.6)):
+        _core.write_picture(str(tmp_path / name), np.full((8, 8, 3), value, np.float32))
     monkeypatch.chdir(tmp_path)
 
 
@@ -52,11 +52,12 @@ def test_python_of_the_pages(page, code, room):
     exec(compile(coarse, page, "exec"), {})
 
 
+# What follows a wide gap is a remark.
 COMMANDS = [
-    (page, line.removeprefix("$ "))
-    for page, code in blocks("(?:console|sh|bash)")
+    (page, re.split(r" {3,}", line.removeprefix("$ "))[0])
+    for page, code in blocks("", "console", "sh", "bash", "text")
     for line in code.splitlines()
-    if line.removeprefix("$ ").startswith("antumbra ")
+    if line.removeprefix("$ ").startswith("antumbra ") and "VERB" not in line
 ]
 
 
