@@ -4,8 +4,8 @@ use std::mem::MaybeUninit;
 
 use super::collapse::{Summary, combine};
 use super::item::Item;
-use super::split::{self, Binning, Bins, Side};
-use super::{Measure, PARALLEL, Workers};
+use super::split::{self, Binning, Bins};
+use super::{Measure, PARALLEL, Workers, extent};
 use crate::layout::{Bounds, WIDTH, roomy};
 
 /// From this depth on sets are halved, so that no input makes the tree deep: 44 + log₂ 2³² < `MAX_DEPTH`.
@@ -55,21 +55,27 @@ impl Plan {
         let Some((node, below)) = nodes.split_first_mut() else {
             return Summary::of_one(&items[0], self.measure.half_area(bounds), &self.measure);
         };
-        let (left, a, b) = self.cut(items, centres, depth);
+        let left = self.cut(items, centres, depth);
         let (left_items, right_items) = items.split_at_mut(left);
         let (left_nodes, right_nodes) = below.split_at_mut(left - 1);
         let (l, r) = self.workers.join(
             count > PARALLEL,
-            || self.divide(left_items, left_nodes, &a.bounds, &a.centres, depth + 1),
-            || self.divide(right_items, right_nodes, &b.bounds, &b.centres, depth + 1),
+            || self.subtree(left_items, left_nodes, depth + 1),
+            || self.subtree(right_items, right_nodes, depth + 1),
         );
         let summary = combine(&l, &r, (left, count - left), self.measure.half_area(bounds));
         node.write(Binary { bounds: *bounds, left: left as u32, summary });
         summary
     }
 
-    /// Divides at least two items into two sides of at least one.
-    fn cut(&self, items: &mut [Item], centres: &Bounds, depth: usize) -> (usize, Side, Side) {
+    /// [`divide`](Plan::divide) with the boxes that it needs.
+    fn subtree(&self, items: &mut [Item], nodes: &mut [MaybeUninit<Binary>], depth: usize) -> Summary {
+        let (bounds, centres) = extent(items, self.workers);
+        self.divide(items, nodes, &bounds, &centres, depth)
+    }
+
+    /// Divides at least two items into two sides of at least one; how many are on the left.
+    fn cut(&self, items: &mut [Item], centres: &Bounds, depth: usize) -> usize {
         if depth >= HALVE_FROM {
             return split::halve(items, centres);
         }

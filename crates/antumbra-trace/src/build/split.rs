@@ -57,15 +57,6 @@ impl Grow {
     }
 }
 
-/// One side of a cut.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Side {
-    /// Box of its primitives.
-    pub bounds: Bounds,
-    /// Box of their centres.
-    pub centres: Bounds,
-}
-
 /// Maps centres to bins.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Binning {
@@ -99,8 +90,9 @@ impl Binning {
     }
 
     #[inline(always)]
-    fn bin(&self, axis: usize, centre: &[f32; 4]) -> usize {
-        self.bins(centre)[axis]
+    fn bin(&self, axis: usize, item: &Item) -> usize {
+        let x = (item.centre()[axis] - self.from[axis]) * self.per_unit[axis];
+        (x as i32).clamp(0, self.count as i32 - 1) as usize
     }
 }
 
@@ -165,46 +157,31 @@ impl Bins {
     }
 }
 
-/// Puts the primitives whose bin on `axis` is below `bin` first; how many there are, and the two sides.
-pub(crate) fn partition(
-    items: &mut [Item],
-    binning: &Binning,
-    axis: usize,
-    bin: usize,
-) -> (usize, Side, Side) {
-    let mut grown = [(Grow::EMPTY, Grow::EMPTY); 2];
-    let (mut left, mut right) = (0, items.len());
-    while left < right {
-        let item = items[left];
-        let centre = item.centre();
-        let side = usize::from(binning.bin(axis, &centre) >= bin);
-        grown[side].0.add(&item);
-        grown[side].1.add_point(&centre);
-        if side == 0 {
-            left += 1;
-        } else {
-            right -= 1;
-            items.swap(left, right);
-        }
+/// Puts the primitives whose bin on `axis` is below `bin` first; how many there are. No branch depends on a primitive.
+pub(crate) fn partition(items: &mut [Item], binning: &Binning, axis: usize, bin: usize) -> usize {
+    let mut left = 0;
+    for i in 0..items.len() {
+        let item = items[i];
+        items[i] = items[left];
+        items[left] = item;
+        left += usize::from(binning.bin(axis, &item) < bin);
     }
-    let [l, r] = grown.map(|(bounds, centres)| Side { bounds: bounds.bounds(), centres: centres.bounds() });
-    (left, l, r)
+    left
 }
 
 /// Cuts in the middle along the axis on which the centres spread most: for sets that no plane divides well.
-pub(crate) fn halve(items: &mut [Item], centres: &Bounds) -> (usize, Side, Side) {
+pub(crate) fn halve(items: &mut [Item], centres: &Bounds) -> usize {
     let width = |a: usize| centres.hi[a] - centres.lo[a];
     let axis = (1..3).fold(0, |best, a| if width(a) > width(best) { a } else { best });
     let middle = items.len() / 2;
     if width(axis) > 0.0 {
         items.select_nth_unstable_by(middle, |a, b| a.centre()[axis].total_cmp(&b.centre()[axis]));
     }
-    let (left, right) = items.split_at(middle);
-    (middle, side(left), side(right))
+    middle
 }
 
 /// Tries every cut between two centres on each axis; for 2 … [`SWEEP`] primitives.
-pub(crate) fn sweep(items: &mut [Item], measure: &Measure) -> (usize, Side, Side) {
+pub(crate) fn sweep(items: &mut [Item], measure: &Measure) -> usize {
     let n = items.len();
     let mut best = (f32::INFINITY, n / 2);
     let mut order = [0; SWEEP];
@@ -236,8 +213,7 @@ pub(crate) fn sweep(items: &mut [Item], measure: &Measure) -> (usize, Side, Side
             items[i] = copy[order[i]];
         }
     }
-    let (left, right) = items.split_at(best.1);
-    (best.1, side(left), side(right))
+    best.1
 }
 
 /// The order of the centres on an axis, by insertion: stable, hence the same everywhere.
@@ -253,13 +229,4 @@ fn sorted_by_centre(items: &[Item], axis: usize) -> [usize; SWEEP] {
         (keys[at], order[at]) = (key, filled);
     }
     order
-}
-
-fn side(items: &[Item]) -> Side {
-    let (mut bounds, mut centres) = (Grow::EMPTY, Grow::EMPTY);
-    for item in items {
-        bounds.add(item);
-        centres.add_point(&item.centre());
-    }
-    Side { bounds: bounds.bounds(), centres: centres.bounds() }
 }
