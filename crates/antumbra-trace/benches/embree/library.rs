@@ -1,7 +1,7 @@
 //! Embree 4 through its C interface, loaded at run time: the peer of the race, never a dependency.
 
 use std::ffi::{CString, c_char, c_int, c_void};
-use std::sync::atomic::{AtomicIsize, Ordering};
+use std::sync::atomic::{AtomicI32, AtomicIsize, Ordering};
 
 use antumbra_trace::{Segments, TO_POINT, Triangles};
 
@@ -18,13 +18,22 @@ struct Time {
     nanoseconds: i64,
 }
 
+const WALL: c_int = 1;
 const CPU_OF_THREAD: c_int = 3;
 
-/// Processor time of this thread [s]: what the other work on a shared machine disturbs least.
+/// Which clock [`now`] reads.
+static CLOCK: AtomicI32 = AtomicI32::new(CPU_OF_THREAD);
+
+/// From now on by the clock on the wall: for work of several threads.
+pub fn use_wall_clock() {
+    CLOCK.store(WALL, Ordering::Relaxed);
+}
+
+/// Processor time of this thread [s] (what the other work on a shared machine disturbs least), or wall time.
 pub fn now() -> f64 {
     let mut time = Time { seconds: 0, nanoseconds: 0 };
     // SAFETY: `time` has the layout of timespec on 64-bit Linux and lives through the call.
-    unsafe { clock_gettime(CPU_OF_THREAD, &mut time) };
+    unsafe { clock_gettime(CLOCK.load(Ordering::Relaxed), &mut time) };
     time.seconds as f64 + time.nanoseconds as f64 * 1e-9
 }
 
@@ -114,7 +123,7 @@ pub struct Scene<'a> {
     scene: Ptr,
     /// Bytes taken while building, kept.
     pub bytes: usize,
-    /// Processor time of the build [s].
+    /// Time of the build [s].
     pub seconds: f64,
 }
 

@@ -3,7 +3,8 @@
 //!
 //! `ANTUMBRA_EMBREE=/path/to/libembree4.so cargo bench --profile demo -p antumbra-trace --bench embree [-- SCENE …]`
 //! (the library is part of the Python wheel `embreex`). `ANTUMBRA_DETAIL` scales the scenes, `ANTUMBRA_RESULT` names a
-//! JSON file for the numbers, `ANTUMBRA_SIMD` forces a level, `ANTUMBRA_CLASS` picks one class of rays.
+//! JSON file for the numbers, `ANTUMBRA_SIMD` forces a level, `ANTUMBRA_CLASS` picks one class of rays,
+//! `ANTUMBRA_THREADS` above 1 races the builds alone, with as many threads, by the clock on the wall.
 
 mod library;
 mod rays;
@@ -13,7 +14,7 @@ use antumbra_trace::{
     Bits, BuildOptions, Geometry, Hits, Instance, NO_PRIM, Pool, SimdLevel, Triangles, Visibility, Work,
     World,
 };
-use library::{Embree, Scene as Peer, now};
+use library::{Embree, Scene as Peer, now, use_wall_clock};
 use rays::Class;
 
 const ROUNDS: usize = 7;
@@ -23,7 +24,13 @@ fn main() {
         println!("skipped: ANTUMBRA_EMBREE does not name libembree4.so (see the head of this file)");
         return;
     };
-    let Some(embree) = Embree::load(&path, 1) else {
+    let threads = std::env::var("ANTUMBRA_THREADS").ok().and_then(|v| v.parse().ok()).unwrap_or(1);
+    let pool =
+        (threads > 1).then(|| rayon::ThreadPoolBuilder::new().num_threads(threads).build().ok()).flatten();
+    if pool.is_some() {
+        use_wall_clock();
+    }
+    let Some(embree) = Embree::load(&path, threads) else {
         println!("skipped: {path} is no Embree 4");
         return;
     };
@@ -32,7 +39,11 @@ fn main() {
     let mut lines = Vec::new();
     for scene in scenes::all(detail) {
         if wanted.is_empty() || wanted.iter().any(|w| w == scene.name) {
-            race(&embree, &scene, &mut lines);
+            let mesh = &scene.mesh;
+            build_race(&embree, &scene, pool.as_ref(), &mut lines);
+            if pool.is_none() {
+                race(&embree, &scene, &build(mesh, None).0, &mut lines);
+            }
         }
     }
     if let Ok(file) = std::env::var("ANTUMBRA_RESULT") {
@@ -49,11 +60,16 @@ fn level() -> SimdLevel {
 }
 
 /// Builds and its time [s].
-fn build(mesh: &Triangles) -> (World, f64) {
+fn build(mesh: &Triangles, pool: Option<&rayon::ThreadPool>) -> (World, f64) {
     let geometries = vec![Geometry::Triangles(std::sync::Arc::new(mesh.clone()))];
     let instance = Instance { geometry: 0, transform: None, masked: false };
     let start = now();
-    let world = World::build(geometries, vec![instance], &BuildOptions::default(), Pool::serial());
+    let world = World::build(
+        geometries,
+        vec![instance],
+        &BuildOptions::default(),
+        pool.map_or(Pool::serial(), Pool::from),
+    );
     let seconds = now() - start;
     match world {
         Ok(world) => (world.with_level(level()), seconds),
@@ -61,19 +77,29 @@ fn build(mesh: &Triangles) -> (World, f64) {
     }
 }
 
-fn race(embree: &Embree, scene: &scenes::Scene, lines: &mut Vec<String>) {
+/// One class, if only that is wanted.
+fn only() -> String {
+    std::env::var("ANTUMBRA_CLASS").unwrap_or_default()
+}
+
+/// Time and memory of both builders in turn.
+fn build_race(
+    embree: &Embree,
+    scene: &scenes::Scene,
+    pool: Option<&rayon::ThreadPool>,
+    lines: &mut Vec<String>,
+) {
     let n = scene.mesh.indices.len();
     println!("\n{}: {n} triangles", scene.name);
     let mut seconds = [Vec::new(), Vec::new(), Vec::new()];
     let mut bytes = [0, 0, 0];
-    let only = std::env::var("ANTUMBRA_CLASS").unwrap_or_default();
     let rounds = match n {
-        _ if !only.is_empty() => 1,
+        _ if !only().is_empty() => 1,
         0..100_000 => ROUNDS,
         _ => 3,
     };
     for _ in 0..rounds {
-        let (world, ours) = build(&scene.mesh);
+        let (world, ours) = build(&scene.mesh, pool);
         seconds[0].push(ours);
         bytes[0] = world.stats().bytes;
         for (k, robust) in [(1, false), (2, true)] {
@@ -84,21 +110,26 @@ fn race(embree: &Embree, scene: &scenes::Scene, lines: &mut Vec<String>) {
     }
     let [ours, high, robust] = seconds.map(|s| median(&s));
     let per = bytes.map(|b| b as f64 / n as f64);
+    let threads = pool.map_or(1, rayon::ThreadPool::current_num_threads);
     println!(
-        "  build, 1 thread: ours {ours:.3} s, Embree HIGH {high:.3} s ({:.2}×), robust {robust:.3} s ({:.2}×)",
+        "  build, {threads} thread(s): ours {ours:.3} s, Embree HIGH {high:.3} s ({:.2}×), robust {robust:.3} s ({:.2}×)",
         ours / high,
         ours / robust
     );
     println!("  bytes/triangle: ours {:.1}, Embree HIGH {:.1}, robust {:.1}", per[0], per[1], per[2]);
     lines.push(format!(
-        "  {{\"scene\": \"{}\", \"triangles\": {n}, \"build_seconds\": [{ours:.4}, {high:.4}, {robust:.4}], \
+        "  {{\"scene\": \"{}\", \"triangles\": {n}, \"threads\": {threads}, \"build_seconds\": [{ours:.4}, {high:.4}, {robust:.4}], \
          \"bytes_per_triangle\": [{:.2}, {:.2}, {:.2}]}}",
         scene.name, per[0], per[1], per[2]
     ));
-    let world = build(&scene.mesh).0;
+}
+
+/// All classes of rays of a scene.
+fn race(embree: &Embree, scene: &scenes::Scene, world: &World, lines: &mut Vec<String>) {
+    let only = only();
     let peers = [embree.scene(&scene.mesh, false), embree.scene(&scene.mesh, true)];
-    for class in rays::classes(scene, &world).into_iter().filter(|c| only.is_empty() || c.name == only) {
-        lines.push(measure(scene.name, &world, &peers, &class));
+    for class in rays::classes(scene, world).into_iter().filter(|c| only.is_empty() || c.name == only) {
+        lines.push(measure(scene.name, world, &peers, &class));
     }
 }
 

@@ -161,10 +161,9 @@ impl Bins {
 pub(crate) fn partition(items: &mut [Item], binning: &Binning, axis: usize, bin: usize) -> usize {
     let mut left = 0;
     for i in 0..items.len() {
-        let item = items[i];
-        items[i] = items[left];
-        items[left] = item;
-        left += usize::from(binning.bin(axis, &item) < bin);
+        let goes_left = binning.bin(axis, &items[i]) < bin;
+        items.swap(i, left);
+        left += usize::from(goes_left);
     }
     left
 }
