@@ -28,7 +28,7 @@ fn smoothing_groups_make_normals_and_off_makes_none() {
     let mesh = &smooth.meshes[0];
     assert_eq!(mesh.triangles.vertices.len(), 4);
     let half = std::f32::consts::FRAC_1_SQRT_2;
-    // Faces along +z and −… : (0,0,1) and (1,0,0)×… = (0,1,0)·: the mean of both at the common edge.
+    // The faces look along +z and +y and have the same area: at the common edge stands the mean of both.
     let n = mesh.normals.as_ref().unwrap();
     let expected = [0.0, half, half];
     assert!(n[0].iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-6), "{n:?}");
