@@ -22,6 +22,9 @@ test: $(VENV)/.dev ## every test, Rust and Python
 lint: $(VENV)/.dev ## form, types and lints of both languages
 	cargo fmt --check
 	$(PYO3) cargo clippy $(CARGO_ALL) --workspace --all-targets --features pyo3/extension-module -- -D warnings
+	@if [ -d "$$(rustc --print target-libdir --target wasm32-unknown-unknown 2>/dev/null)" ]; then \
+	  cargo check $(CARGO_ALL) --target wasm32-unknown-unknown --no-default-features -p antumbra-math -p antumbra-trace -p antumbra; \
+	else echo "note: no Rust target wasm32-unknown-unknown (rustup target add it): the core was not checked for it" >&2; fi
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
