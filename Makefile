@@ -4,6 +4,7 @@ SHELL := /bin/bash
 .PHONY: help demo test lint bench stress docs wheel setup clean
 
 VENV := .venv
+RIVALS := .venv-bench
 BIN := $(VENV)/bin
 PYO3 := PYO3_PYTHON=$(CURDIR)/$(BIN)/python
 CARGO_ALL := --locked --profile demo
@@ -35,8 +36,8 @@ lint: $(VENV)/.dev ## form, types and lints of both languages
 stress: $(VENV)/.dev ## the tests at full size (10⁸ rays; long)
 	@ANTUMBRA_STRESS=1 tools/run_tests.sh
 
-bench: $(VENV)/.ok ## measure speed: kernels, then races against other renderers
-	@tools/run_benches.sh
+bench: $(RIVALS)/.ok ## measure speed: kernels, then races against other programs (RACE=--quick: small sizes)
+	@tools/run_benches.sh $(RACE)
 
 docs: $(VENV)/.ok ## write the reference pages that are made from the source
 	$(BIN)/python tools/reference.py
@@ -47,10 +48,16 @@ wheel: $(VENV)/.ok ## a wheel for other machines, in dist/
 setup: $(VENV)/.dev ## the environment alone
 
 clean: ## remove everything that was built
-	rm -rf $(VENV) target dist python/antumbra/*.so
+	rm -rf $(VENV) $(RIVALS) target dist python/antumbra/*.so
 
 $(VENV)/.ok: $(SOURCES)
 	@tools/setup.sh $(VENV) .
+	@touch $@
+
+# The programs that the races run against, in an environment of their own.
+$(RIVALS)/.ok: $(SOURCES) benches/requirements.txt
+	@tools/setup.sh $(RIVALS) .
+	@$(RIVALS)/bin/pip install --quiet --disable-pip-version-check -c constraints.txt -r benches/requirements.txt
 	@touch $@
 
 $(VENV)/.dev: $(SOURCES)

@@ -326,6 +326,13 @@ class Scene:
         """Counts, bounds, lights, cameras and memory: what `antumbra info --json` prints."""
         return self._core.info()
 
+    def triangles(self) -> tuple[NDArray[np.float32], NDArray[np.uint32]]:
+        """All triangles in world space, for other programs: vertices (V, 3) and faces (F, 3).
+
+        Every placed mesh behind the other in the order of building; spheres, disks and cylinders are left out.
+        """
+        return self._core.triangles()
+
     def __repr__(self) -> str:
         """`<Scene room.glb: 143,163 triangles, 5 lights, 1 camera>`."""
         found = self._core.counts()

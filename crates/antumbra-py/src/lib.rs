@@ -5,6 +5,7 @@ mod ask;
 mod errors;
 mod info;
 mod kinds;
+mod meshes;
 mod picture;
 mod query;
 mod receivers;
