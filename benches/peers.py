@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import ctypes
 import importlib
 from collections.abc import Callable
 from importlib.metadata import version
@@ -11,6 +10,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+
 from scenes import Mesh, Rays
 
 Answer = Callable[[], NDArray[np.bool_]]
@@ -74,6 +74,4 @@ def embree_library() -> Path | None:
         folder = Path(importlib.import_module("embreex").__file__ or "").parent.parent / "embreex.libs"
     except ImportError:
         return None
-    for threads in folder.glob("libtbb*"):
-        ctypes.CDLL(str(threads), mode=ctypes.RTLD_GLOBAL)
     return next(iter(sorted(folder.glob("libembree4*"))), None)

@@ -8,6 +8,7 @@ import os
 import platform
 import statistics
 import subprocess
+import tempfile
 import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
@@ -64,7 +65,9 @@ class Times:
 def options(what: str | None, **extra: Any) -> argparse.Namespace:
     """The options that every race takes; `extra`: name and default of more."""
     parser = argparse.ArgumentParser(description=what)
-    parser.add_argument("--quick", action="store_true", help="small sizes: shows that it works, measures nothing")
+    parser.add_argument(
+        "--quick", action="store_true", help="small sizes: shows that it works, measures nothing"
+    )
     parser.add_argument("--rounds", type=int, default=7, help="turns of each contestant (7)")
     parser.add_argument("--result", type=Path, help="the file that the rows are added to")
     for name, default in extra.items():
@@ -102,6 +105,17 @@ def spread(values: Sequence[float]) -> dict[str, Any]:
         "high": max(values),
         "rounds": len(values),
     }
+
+
+def cargo_bench(package: str, name: str, **surroundings: str) -> list[dict[str, Any]]:
+    """What a bench of a crate writes into the file that ANTUMBRA_RESULT names."""
+    words = ["cargo", "bench", "--locked", "--profile", "demo", "--quiet", "-p", package, "--bench", name]
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / "result.json"
+        known = os.environ | surroundings | {"ANTUMBRA_RESULT": str(file)}
+        subprocess.run(words, cwd=ROOT, env=known, check=True, stdout=subprocess.DEVNULL)
+        found: list[dict[str, Any]] = json.loads(file.read_text())
+    return found
 
 
 @contextmanager
@@ -176,8 +190,11 @@ def line(row: dict[str, Any]) -> str:
     sign = "≥" if row["bound"] == "least" else "≤"
     wanted = "" if row["target"] is None else f"{sign} {row['target']:g}"
     who = f"{row['work']} | {row['peer']}" if row["peer"] else row["work"]
-    return f"{row['number']:>3}  {who:<72} {row['threads']:>2}  {value:<22} {wanted:<8} {row['verdict']:<8} {_notes(row)}"
+    head = f"{row['number']:>3}  {who:<72} {row['threads']:>2}  {value:<22} {wanted:<8}"
+    return f"{head} {row['verdict']:<8} {_notes(row)}"
 
 
 def _notes(row: dict[str, Any]) -> str:
-    return ", ".join(f"{name} {value}" for name, value in row["more"].items() if not isinstance(value, dict | list))
+    return ", ".join(
+        f"{name} {value}" for name, value in row["more"].items() if not isinstance(value, dict | list)
+    )

@@ -5,9 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-import antumbra as am
 import numpy as np
 from numpy.typing import NDArray
+
+import antumbra as am
 
 Array = NDArray[Any]
 
@@ -77,7 +78,9 @@ def rays(mesh: Mesh, count: int, seed: int) -> list[Rays]:
     # Far enough that no ray starts below its own triangle after rounding.
     lift = 2e-6 * np.abs(mesh.vertices).max()
     ambient = Rays(f"{mesh.name}: ambient rays from random points", *_empty(count), np.inf)
-    light = Rays(f"{mesh.name}: segments to a light from random points", ambient.origins, _empty(count)[1], 1.0)
+    light = Rays(
+        f"{mesh.name}: segments to a light from random points", ambient.origins, _empty(count)[1], 1.0
+    )
     (x, y, z), half = mesh.light
     for at in range(0, count, CHUNK):
         n = min(CHUNK, count - at)

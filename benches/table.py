@@ -35,7 +35,9 @@ def main() -> None:
     print(f"{'#':>3}  {'work | peer':<72} {'th':>2}  {'median (least–largest)':<22} {'target':<8} verdict")
     print("\n".join(map(line, rows)))
     missed = [row for row in rows if row["verdict"] == "missed"]
-    print(f"\n{len(missed)} of {sum(row['target'] is not None for row in rows)} targets missed: {sys.argv[1]}")
+    print(
+        f"\n{len(missed)} of {sum(row['target'] is not None for row in rows)} targets missed: {sys.argv[1]}"
+    )
 
 
 if __name__ == "__main__":

@@ -7,8 +7,9 @@ is decided in rational numbers.
 from __future__ import annotations
 
 import numpy as np
-from exact import blocked
 from numpy.typing import NDArray
+
+from exact import blocked
 from peers import Answer, antumbra, found
 from race import Row, Times, cores, in_turn, options, ratios, report
 from scenes import Mesh, Rays, builtin, rays
@@ -47,7 +48,9 @@ def compare(
         theirs, ours = getattr(taken, attribute), getattr(times[0], attribute)
         other = answer()
         more = {
-            "Mray/s": [round(len(mine) / float(np.median(t)) / 1e6, 2) for t in (ours, theirs)],
+            "Mray/s, ours and theirs": ", ".join(
+                f"{len(mine) / np.median(t) / 1e6:.2f}" for t in (ours, theirs)
+            ),
             "blocked": f"{mine.mean():.1%}",
             "asked": len(mine),
             **(judge(mesh, kind, mine, other) if threads == 1 else {"differ": int((mine != other).sum())}),
@@ -66,7 +69,12 @@ def judge(mesh: Mesh, kind: Rays, ours: NDArray[np.bool_], theirs: NDArray[np.bo
     corners = mesh.corners()
     truth = [blocked(corners, kind.origins[i], kind.directions[i], kind.reach) for i in drawn]
     right = int(np.sum(ours[drawn] == np.array(truth, bool)))
-    return {"differ": len(differ), "decided": len(drawn), "ours right": right, "theirs right": len(drawn) - right}
+    return {
+        "differ": len(differ),
+        "decided": len(drawn),
+        "ours right": right,
+        "theirs right": len(drawn) - right,
+    }
 
 
 if __name__ == "__main__":

@@ -5,13 +5,7 @@ Runs the bench of crates/antumbra-io; there is no peer but the copy of the bytes
 
 from __future__ import annotations
 
-import json
-import os
-import subprocess
-import tempfile
-from pathlib import Path
-
-from race import ROOT, Row, options, report, spread
+from race import Row, cargo_bench, options, report, spread
 
 NUMBER, TARGET = "14", 5.0
 
@@ -19,21 +13,19 @@ NUMBER, TARGET = "14", 5.0
 def main() -> None:
     """One call of the bench."""
     asked = options(__doc__)
-    with tempfile.TemporaryDirectory() as folder:
-        file = Path(folder) / "reading.json"
-        words = ["cargo", "bench", "--locked", "--profile", "demo", "--quiet", "-p", "antumbra-io", "--bench", "reading"]
-        surroundings = os.environ | {"ANTUMBRA_RESULT": str(file), "ANTUMBRA_ROUNDS": str(asked.rounds)}
-        if asked.quick:
-            surroundings |= {"ANTUMBRA_DETAIL": "0.05"}
-        subprocess.run(words, cwd=ROOT, env=surroundings, check=True, stdout=subprocess.DEVNULL)
-        found = json.loads(file.read_text())
+    detail = {"ANTUMBRA_DETAIL": "0.05"} if asked.quick else {}
+    found = cargo_bench("antumbra-io", "reading", ANTUMBRA_ROUNDS=str(asked.rounds), **detail)
     rows = []
     for one in found:
         work = f"{one['name']}, {one['bytes'] / 1e6:.0f} MB, {one['triangles']:,} triangles"
         measure = "time from bytes to builder / time to read the bytes"
         fields = spread([b / a for a, b in zip(one["reading"], one["building"], strict=True)])
-        row = Row("reading", NUMBER, work, "reading the bytes", 1, measure, **fields, target=TARGET, bound="most")
-        row.more = {f"{key} ms": round(1e3 * spread(one[key])["median"], 1) for key in ("reading", "building")}
+        row = Row(
+            "reading", NUMBER, work, "reading the bytes", 1, measure, **fields, target=TARGET, bound="most"
+        )
+        row.more = {
+            f"{key} ms": round(1e3 * spread(one[key])["median"], 1) for key in ("reading", "building")
+        }
         rows.append(row)
     report(rows, asked.result)
 

@@ -24,7 +24,10 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "tetrahedron.glb"
         file.write_bytes(tetrahedron())
-        calls = {"antumbra --help": [program, "--help"], "antumbra info tetrahedron.glb": [program, "info", str(file)]}
+        calls = {
+            "antumbra --help": [program, "--help"],
+            "antumbra info tetrahedron.glb": [program, "info", str(file)],
+        }
         taken: dict[str, list[tuple[float, float]]] = {name: [] for name in calls}
         for turn in range(times + 1):
             for name, words in calls.items():
@@ -34,7 +37,9 @@ def main() -> None:
     rows = []
     for name, seconds in taken.items():
         wall, processor = zip(*seconds, strict=True)
-        row = Row("start", NUMBER, name, "", 1, "seconds on the clock", **spread(wall), target=TARGET, bound="most")
+        row = Row(
+            "start", NUMBER, name, "", 1, "seconds on the clock", **spread(wall), target=TARGET, bound="most"
+        )
         row.more = {"processor s": round(spread(processor)["median"], 3)}
         rows.append(row)
     report(rows, asked.result)
@@ -59,7 +64,14 @@ def tetrahedron() -> bytes:
         "nodes": [{"mesh": 0}],
         "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
         "accessors": [
-            {"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3", "min": [0] * 3, "max": [1] * 3},
+            {
+                "bufferView": 0,
+                "componentType": 5126,
+                "count": 4,
+                "type": "VEC3",
+                "min": [0] * 3,
+                "max": [1] * 3,
+            },
             {"bufferView": 1, "componentType": 5123, "count": 12, "type": "SCALAR"},
         ],
         "bufferViews": [
@@ -72,7 +84,15 @@ def tetrahedron() -> bytes:
     text += b" " * (-len(text) % 4)
     binary = points + corners
     head = b"glTF" + struct.pack("<II", 2, 28 + len(text) + len(binary))
-    return head + struct.pack("<I", len(text)) + b"JSON" + text + struct.pack("<I", len(binary)) + b"BIN\0" + binary
+    return (
+        head
+        + struct.pack("<I", len(text))
+        + b"JSON"
+        + text
+        + struct.pack("<I", len(binary))
+        + b"BIN\0"
+        + binary
+    )
 
 
 if __name__ == "__main__":

@@ -34,7 +34,16 @@ def main() -> None:
             one, two = in_turn([lambda: render(1), lambda: render(2)], asked.rounds)
         work = f"{name}, {words['estimator']}, {words['viewing_rays']} viewing rays"
         measure = "seconds on the clock, 1 thread / 2 threads"
-        row = Row("threads", NUMBER, work, "itself, 1 thread", 2, measure, **ratios(one.wall, two.wall), target=TARGET)
+        row = Row(
+            "threads",
+            NUMBER,
+            work,
+            "itself, 1 thread",
+            2,
+            measure,
+            **ratios(one.wall, two.wall),
+            target=TARGET,
+        )
         rays = pictures[1].rays
         row.more = {
             "processor time, 1 thread / 2": round(ratios(one.processor, two.processor)["median"], 3),

@@ -77,9 +77,9 @@ def places(points: Any, normals: Any) -> tuple[Array | Receivers, Array | None]:
 
 def per_row(name: str, value: Any, count: int) -> NDArray[np.float64]:
     """One number for each of `count` rows; a single one stands for all."""
-    array = numbers(name, value).astype(np.float64)
+    array = numbers(name, value).astype(np.float64, copy=False)
     if array.ndim == 0:
-        return np.full(count, array)
+        return np.broadcast_to(array, count)
     if array.shape != (count,):
         raise ValueError(f"{name} has shape {array.shape}: one number, or ({count},) is needed")
     return array

@@ -1,7 +1,9 @@
 //! Arrays of Python read as they lie: float32 or float64, any stride.
 
+use std::ops::Range;
+
 use numpy::PyReadonlyArray2;
-use numpy::ndarray::ArrayView2;
+use numpy::ndarray::{ArrayView2, Axis, Slice};
 use pyo3::prelude::*;
 
 use crate::errors;
@@ -51,6 +53,16 @@ impl View<'_> {
         }
     }
 
+    /// Rows of `run` in single precision, component by component; false if one is not finite.
+    pub fn split(&self, run: Range<usize>, out: &mut [&mut [f32]; 3]) -> bool {
+        let run = Slice::from(run);
+        match self {
+            View::Single(array) => split(array.slice_axis(Axis(0), run), out, |c| c),
+            View::Double(array) => split(array.slice_axis(Axis(0), run), out, |c| c as f32),
+        }
+        out.iter().all(|component| component.iter().fold(true, |sound, c| sound & c.is_finite()))
+    }
+
     /// Row `i` if all of it is finite; else an error that names it.
     pub fn finite<const K: usize>(&self, name: &str, i: usize) -> Result<[f64; K], String> {
         let row = self.row(i);
@@ -58,6 +70,20 @@ impl View<'_> {
             Ok(row)
         } else {
             Err(format!("{name}[{i}] is {row:?}: finite numbers are needed"))
+        }
+    }
+}
+
+fn split<T: Copy>(rows: ArrayView2<'_, T>, out: &mut [&mut [f32]; 3], single: impl Fn(T) -> f32) {
+    let [x, y, z] = out;
+    if let Some(flat) = rows.as_slice() {
+        let all = flat.as_chunks::<3>().0.iter();
+        for ((([a, b, c], x), y), z) in all.zip(x.iter_mut()).zip(y.iter_mut()).zip(z.iter_mut()) {
+            (*x, *y, *z) = (single(*a), single(*b), single(*c));
+        }
+    } else {
+        for (column, out) in rows.columns().into_iter().zip([x, y, z]) {
+            column.iter().zip(out.iter_mut()).for_each(|(value, out)| *out = single(*value));
         }
     }
 }

@@ -8,7 +8,7 @@ use antumbra::scene::Scene;
 use antumbra::schedule::Flow;
 use antumbra::sensor::Query;
 use antumbra::trace::{NO_PRIM, SegmentBuffer};
-use numpy::ndarray::ArrayView1;
+use numpy::ndarray::{ArrayView1, Axis, Slice};
 use pyo3::prelude::*;
 
 use crate::arrays::{Rows, View};
@@ -74,6 +74,11 @@ impl Batch<'_> {
     /// Gathers a run of entries. An entry that cannot be asked about becomes a ray of length 0, which meets nothing;
     /// if it is the caller's mistake it is noted in `wrong`.
     pub fn gather(&self, run: Range<usize>, buffer: &mut SegmentBuffer, wrong: &Wrong) {
+        buffer.clear();
+        if self.gather_points(run.clone(), buffer) {
+            return;
+        }
+        buffer.clear();
         for i in run {
             match self.entry(i) {
                 Ok(Some(Entry { origin, end, reach: Some(reach), first })) => {
@@ -89,6 +94,19 @@ impl Batch<'_> {
                 }
             }
         }
+    }
+
+    /// Gathers a run of bare points, component by component; false if they are not bare or one cannot be asked about.
+    fn gather_points(&self, run: Range<usize>, buffer: &mut SegmentBuffer) -> bool {
+        let Starts::Points(points) = self.starts else { return false };
+        let mut rays = buffer.grow(run.len(), run.start as u32);
+        let sound = points.split(run.clone(), &mut rays.origin) & self.ends.split(run.clone(), &mut rays.end);
+        let Some(reach) = self.reach else { return sound };
+        let reach = reach.slice_axis(Axis(0), Slice::from(run));
+        reach.iter().zip(rays.reach).fold(sound, |sound, (t, out)| {
+            *out = *t as f32;
+            sound & (*t >= 0.0)
+        })
     }
 
     /// Entry `i`; `None` = it starts at a ray that missed.

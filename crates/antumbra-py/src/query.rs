@@ -41,10 +41,9 @@ impl PyScene {
         let scene = self.scene(py)?;
         let batch = batch(&scene, &origins, &ends, reach.as_ref())?;
         let mut out = vec![false; batch.starts.len()];
-        in_runs(py, &mut out, |from, out, wrong, watch| {
-            let fill = |run: Range<usize>, buffer: &mut SegmentBuffer| {
-                batch.gather(from + run.start..from + run.end, buffer, wrong);
-            };
+        let run = out.len().max(1);
+        in_runs(py, &mut out, run, |_, out, wrong, watch| {
+            let fill = |run: Range<usize>, buffer: &mut SegmentBuffer| batch.gather(run, buffer, wrong);
             query::occluded(&scene, &fill, 0, out, watch);
         })?;
         Ok(out.into_pyarray(py))
@@ -61,7 +60,7 @@ impl PyScene {
         let scene = self.scene(py)?;
         let batch = batch(&scene, &origins, &directions, Some(&reach))?;
         let mut out = vec![Ray::MISS; batch.starts.len()];
-        in_runs(py, &mut out, |from, out, wrong, watch| {
+        in_runs(py, &mut out, RUN, |from, out, wrong, watch| {
             let mut hits = vec![RayHit::MISS; out.len()];
             let fill = |run: Range<usize>, buffer: &mut SegmentBuffer| {
                 batch.gather(from + run.start..from + run.end, buffer, wrong);
@@ -217,20 +216,21 @@ impl PyScene {
     }
 }
 
-/// Rays that are answered between two whole arrays of hits: bounds what they take.
+/// Rays between two whole arrays of hits: bounds what those take.
 const RUN: usize = 1 << 19;
 
-/// Answers `out` run by run without Python's lock: `answer(from, run, wrong, watch)`. Ctrl-C raises KeyboardInterrupt.
+/// Answers `out` in runs of `size` without Python's lock: `answer(from, run, wrong, watch)`. Ctrl-C raises KeyboardInterrupt.
 fn in_runs<T: Send>(
     py: Python<'_>,
     out: &mut [T],
+    size: usize,
     answer: impl Fn(usize, &mut [T], &Wrong, &mut dyn FnMut(u64) -> Flow) + Sync,
 ) -> PyResult<()> {
     let wrong = Wrong::default();
     let mut raised = None;
     py.detach(|| {
-        for (k, run) in out.chunks_mut(RUN).enumerate() {
-            answer(k * RUN, run, &wrong, &mut |_| look(&mut raised));
+        for (k, run) in out.chunks_mut(size).enumerate() {
+            answer(k * size, run, &wrong, &mut |_| look(&mut raised));
             if raised.is_some() {
                 break;
             }

@@ -101,6 +101,22 @@ impl SegmentBuffer {
         self.number.push(number);
     }
 
+    /// `count` more entries that start and end on nothing known, numbered from `number`, for the caller to fill.
+    pub fn grow(&mut self, count: usize, number: u32) -> Grown<'_> {
+        let from = self.len();
+        let more = |values: &mut Vec<f32>, value: f32| values.resize(from + count, value);
+        self.origin.iter_mut().chain(&mut self.end).for_each(|values| more(values, 0.0));
+        more(&mut self.reach, TO_POINT);
+        self.first.resize(from + count, NO_PRIM);
+        self.last.resize(from + count, NO_PRIM);
+        self.number.extend((0..count as u32).map(|k| number.wrapping_add(k)));
+        Grown {
+            origin: self.origin.each_mut().map(|values| &mut values[from..]),
+            end: self.end.each_mut().map(|values| &mut values[from..]),
+            reach: &mut self.reach[from..],
+        }
+    }
+
     /// Forgets the entries, keeps the memory.
     pub fn clear(&mut self) {
         for axis in 0..3 {
@@ -135,6 +151,17 @@ impl SegmentBuffer {
             number: &self.number,
         }
     }
+}
+
+/// Entries that were just added, to be filled component by component; see [`Segments`] for their meaning.
+#[derive(Debug)]
+pub struct Grown<'a> {
+    /// Start; (0, 0, 0) at first.
+    pub origin: [&'a mut [f32]; 3],
+    /// End point or direction; (0, 0, 0) at first.
+    pub end: [&'a mut [f32]; 3],
+    /// [`TO_POINT`] at first.
+    pub reach: &'a mut [f32],
 }
 
 /// One bit an entry.

@@ -19,7 +19,7 @@ mod traverse;
 mod walk;
 mod world;
 
-pub use batch::{Bits, Hits, SegmentBuffer, Segments, TO_POINT};
+pub use batch::{Bits, Grown, Hits, SegmentBuffer, Segments, TO_POINT};
 pub use brute::Brute;
 pub use build::{BuildOptions, Pool};
 pub use counted::Work;

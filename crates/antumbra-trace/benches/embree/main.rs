@@ -2,10 +2,12 @@
 //! processor time.
 //!
 //! `ANTUMBRA_EMBREE=/path/to/libembree4.so cargo bench --profile demo -p antumbra-trace --bench embree [-- SCENE …]`
-//! (the library is part of the Python wheel `embreex`). `ANTUMBRA_DETAIL` scales the scenes, `ANTUMBRA_RESULT` names a
-//! JSON file for the numbers, `ANTUMBRA_SIMD` forces a level, `ANTUMBRA_CLASS` picks one class of rays,
+//! (the library is part of the Python wheel `embreex`). `ANTUMBRA_DETAIL` scales the scenes, `ANTUMBRA_MESHES`
+//! names a folder of others (`given.rs`) to take in their place, `ANTUMBRA_RESULT` names a JSON file for the numbers,
+//! `ANTUMBRA_SIMD` forces a level, `ANTUMBRA_CLASS` picks one class of rays,
 //! `ANTUMBRA_THREADS` above 1 races the builds alone, with as many threads, by the clock on the wall.
 
+mod given;
 mod library;
 mod rays;
 mod scenes;
@@ -37,7 +39,11 @@ fn main() {
     let wanted: Vec<String> = std::env::args().skip(1).filter(|a| !a.starts_with('-')).collect();
     let detail = std::env::var("ANTUMBRA_DETAIL").ok().and_then(|v| v.parse().ok()).unwrap_or(1.0);
     let mut lines = Vec::new();
-    for scene in scenes::all(detail) {
+    let scenes = match std::env::var_os("ANTUMBRA_MESHES") {
+        Some(folder) => given::all(folder.as_ref()),
+        None => scenes::all(detail),
+    };
+    for scene in scenes {
         if wanted.is_empty() || wanted.iter().any(|w| w == scene.name) {
             let mesh = &scene.mesh;
             build_race(&embree, &scene, pool.as_ref(), &mut lines);
@@ -96,7 +102,7 @@ fn build_race(
     let rounds = match n {
         _ if !only().is_empty() => 1,
         0..100_000 => ROUNDS,
-        _ => 3,
+        _ => 5,
     };
     for _ in 0..rounds {
         let (world, ours) = build(&scene.mesh, pool);
@@ -108,7 +114,7 @@ fn build_race(
             bytes[k] = peer.bytes;
         }
     }
-    let [ours, high, robust] = seconds.map(|s| median(&s));
+    let [ours, high, robust] = seconds.each_ref().map(|s| median(s));
     let per = bytes.map(|b| b as f64 / n as f64);
     let threads = pool.map_or(1, rayon::ThreadPool::current_num_threads);
     println!(
@@ -118,7 +124,7 @@ fn build_race(
     );
     println!("  bytes/triangle: ours {:.1}, Embree HIGH {:.1}, robust {:.1}", per[0], per[1], per[2]);
     lines.push(format!(
-        "  {{\"scene\": \"{}\", \"triangles\": {n}, \"threads\": {threads}, \"build_seconds\": [{ours:.4}, {high:.4}, {robust:.4}], \
+        "  {{\"scene\": \"{}\", \"triangles\": {n}, \"threads\": {threads}, \"build_seconds\": {seconds:?}, \
          \"bytes_per_triangle\": [{:.2}, {:.2}, {:.2}]}}",
         scene.name, per[0], per[1], per[2]
     ));
