@@ -236,6 +236,9 @@ fn emissive_lights(object: &Placed, meshes: &[SceneMesh], radiance: Rgb, both_si
 impl From<Mesh> for SceneMesh {
     fn from(mesh: Mesh) -> SceneMesh {
         let Mesh { name, triangles, normals, uvs, colors } = mesh;
+        // Files give normals of any length; interpolation asks for length 1.
+        let unit = |n: [f32; 3]| DVec3::from(n.map(f64::from)).normalize_or_zero().as_vec3().to_array();
+        let normals = normals.map(|normals| normals.into_iter().map(unit).collect());
         SceneMesh { name, triangles: Arc::new(triangles), normals, uvs, colors }
     }
 }

@@ -99,8 +99,18 @@ impl Scene {
         let Body::Mesh(mesh) = object.body else { return Frame::about(ng) };
         let mesh = &self.meshes[mesh as usize];
         let Some(normals) = &mesh.normals else { return Frame::about(ng) };
-        let n = DVec3::from(mesh.interpolate(normals, local, uv).map(f64::from));
-        let n = object.transform.map_or(n, |t| t.normal(n)).normalize_or_zero().as_vec3();
+        // Normals stand at the corners in world space, of length 1, before they are interpolated: copies and instances
+        // of a stretched mesh look the same.
+        let n = match &object.transform {
+            None => DVec3::from(mesh.interpolate(normals, local, uv).map(f64::from)),
+            Some(t) => {
+                let corner = |v: u32| t.normal(DVec3::from(normals[v as usize].map(f64::from)));
+                let [a, b, c] = mesh.triangles.indices[local as usize].map(|v| corner(v).normalize_or_zero());
+                let [u, v] = uv.map(f64::from);
+                a * (1.0 - u - v) + b * u + c * v
+            }
+        };
+        let n = n.normalize_or_zero().as_vec3();
         let n = if front { n } else { -n };
         // A normal that turns away from the viewer or from its own face cannot bend the BSDF: use the face's.
         if n.dot(ng) > 0.0 && n.dot(wo) > 0.0 { Frame::about(n) } else { Frame::about(ng) }
