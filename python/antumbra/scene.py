@@ -219,14 +219,18 @@ class Scene:
         normals: ArrayLike | None = None,
         *,
         shadow_rays: int = 64,
+        estimator: str = "area",
         **options: Any,
     ) -> Estimate:
-        """Irradiance E [W/m²] that arrives on the normal's side of each point, (N, 3): direct light.
+        """Irradiance E [W/m²] that arrives on the normal's side of each point, (N, 3).
+
+        Direct light, unless `estimator` is "path" or "path-hemisphere": then with light that other surfaces reflect.
 
         `points` (N, 3) with unit `normals` (N, 3), or receivers. Further options as in `render` (`lights`,
         `light_points`, `sampler`, `seed`, `threads`, …).
         """
-        return self._estimate("irradiance", points, normals, {"shadow_rays": shadow_rays, **options})
+        words = {"shadow_rays": shadow_rays, "estimator": estimator, **options}
+        return self._estimate("irradiance", points, normals, words)
 
     def ambient_occlusion(
         self,

@@ -52,10 +52,12 @@ def words(keywords: Mapping[str, Any]) -> dict[str, str]:
 def _word(name: str, value: Any) -> str:
     if isinstance(value, bool):
         return "on" if value else "off"
-    if isinstance(value, (str, int)):
-        return str(value)
+    if isinstance(value, str):
+        return value
     if name in _ANGLES and not _is_sequence(value):
         return repr(math.degrees(float(value)))
+    if isinstance(value, int):
+        return str(value)
     if _is_sequence(value):
         return ("\n" if table().get(name, _NONE).repeats else ",").join(_word("", v) for v in value)
     try:

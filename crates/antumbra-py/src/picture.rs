@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use antumbra::render::Picture as Rendered;
-use antumbra::settings::{Settings, Tone};
+use antumbra::settings::{ExrNumbers, Settings, Tone};
 use antumbra_io::WriteError;
 use antumbra_io::picture::{self as file, Aov, Channels, Look, Precision};
 use numpy::ndarray::{Array3, ArrayD};
@@ -13,14 +13,15 @@ use pyo3::types::PyBytes;
 
 use crate::errors;
 
-/// Layers whose numbers a half cannot hold.
-const FULL: [&str; 3] = ["position", "depth", "sample-count"];
+/// Layers whose numbers a half does not hold well.
+const FULL: [&str; 4] = ["position", "depth", "sample-count", "standard-error"];
 
 /// What `render` returned, or what was pickled of it.
 #[pyclass(frozen, module = "antumbra._core")]
 pub struct Picture {
     rendered: Rendered,
     look: Look,
+    exr: ExrNumbers,
 }
 
 impl Picture {
@@ -30,13 +31,16 @@ impl Picture {
             Tone::Linear => file::Tone::Linear,
             Tone::Filmic => file::Tone::Filmic,
         };
-        Picture { rendered, look: Look { exposure: settings.exposure, tone } }
+        Picture { rendered, look: Look { exposure: settings.exposure, tone }, exr: settings.exr }
     }
 
     fn to_file(&self) -> file::Picture {
         let r = &self.rendered;
         let layer = |(name, channels, values): &(String, usize, Vec<f32>)| {
-            let full = FULL.contains(&name.as_str());
+            let full = match self.exr {
+                ExrNumbers::Auto => FULL.contains(&name.as_str()) || !fits_half(values),
+                exr => exr == ExrNumbers::Float,
+            };
             let channels = match channels {
                 1 => Channels::One(values.clone()),
                 _ => Channels::Three(values.chunks_exact(3).map(|c| [c[0], c[1], c[2]]).collect()),
@@ -52,9 +56,22 @@ impl Picture {
         }
     }
 
+    fn precision(&self) -> Precision {
+        match self.exr {
+            ExrNumbers::Float => Precision::Float,
+            ExrNumbers::Auto if !fits_half(self.rendered.pixels.as_flattened()) => Precision::Float,
+            _ => Precision::Half,
+        }
+    }
+
     fn shape(&self) -> [usize; 2] {
         [self.rendered.height as usize, self.rendered.width as usize]
     }
+}
+
+/// No number is beyond the largest half.
+fn fits_half(values: &[f32]) -> bool {
+    values.iter().all(|v| v.abs() <= 65_504.0 || v.is_nan())
 }
 
 #[pymethods]
@@ -145,7 +162,7 @@ impl Picture {
     fn save(&self, py: Python<'_>, path: &str) -> PyResult<()> {
         let (target, picture) = (Path::new(path), self.to_file());
         let written = match suffix(target).as_str() {
-            "exr" => py.detach(|| file::write_exr(target, &picture, Precision::Half)),
+            "exr" => py.detach(|| file::write_exr(target, &picture, self.precision())),
             "png" => py.detach(|| file::write_png(target, &picture, &self.look)),
             _ => return Err(errors::value(format!("\"{path}\": a picture ends in .exr or .png"))),
         };
@@ -210,7 +227,7 @@ impl Picture {
             hash,
         };
         let tone = if look.1 { file::Tone::Filmic } else { file::Tone::Linear };
-        Ok(Picture { rendered, look: Look { exposure: look.0, tone } })
+        Ok(Picture { rendered, look: Look { exposure: look.0, tone }, exr: ExrNumbers::Auto })
     }
 }
 

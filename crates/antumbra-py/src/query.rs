@@ -114,9 +114,10 @@ impl PyScene {
     ) -> PyResult<(Column<'py>, Column<'py>)> {
         let scene = self.scene(py)?;
         let number = light_number(&scene, light)?;
+        // Of one light, by its number in the whole scene: whichever others shine.
         let estimated =
-            self.estimate(py, &points, normals.as_ref(), &words, [0.0; 3], |s, q, set, look| {
-                query::visible_fraction(s, q, number, set, &mut |_| look())
+            self.estimate(py, &points, normals.as_ref(), &words, [0.0; 3], |_, q, set, look| {
+                query::visible_fraction(&scene, q, number, set, &mut |_| look())
             })?;
         Ok((first(py, &estimated.values), first(py, &estimated.standard_error)))
     }
@@ -199,12 +200,14 @@ impl PyScene {
         elsewhere: [f32; 3],
         ask: impl Fn(&Scene, &[Query], &Settings, &mut dyn FnMut() -> Flow) -> Estimated + Send + Sync,
     ) -> PyResult<Estimated> {
+        let settings = settings::parse_query(words)?;
+        let around = crate::render::environment(py, &settings)?;
         let scene = self.scene(py)?;
-        let settings = settings::parse(words)?;
+        let lit = settings.lit(&scene, around.0).map_err(|e| errors::scene(&e, self.file()))?;
         let (queries, rows) = gather(&scene, points, normals)?;
         let n = points.view(&scene)?.len();
         let mut raised = None;
-        let estimated = py.detach(|| ask(&scene, &queries, &settings, &mut || look(&mut raised)));
+        let estimated = py.detach(|| ask(&lit, &queries, &settings, &mut || look(&mut raised)));
         match raised {
             Some(e) => Err(e),
             None => Ok(Estimated {

@@ -2,7 +2,7 @@
 
 use antumbra::light::Light;
 use antumbra::render;
-use antumbra::scene::builtin;
+use antumbra::scene::{Message, builtin};
 use antumbra::schedule::{Flow, Progress};
 use antumbra::settings::Settings;
 use pyo3::prelude::*;
@@ -30,18 +30,19 @@ impl PyScene {
         watch: Option<Py<PyAny>>,
     ) -> PyResult<(Option<Picture>, bool)> {
         let settings = settings::parse(&words)?;
-        let environment = environment(py, &settings)?;
+        let (around, told) = environment(py, &settings)?;
         let scene = self.scene(py)?;
         let mut watched = Watched::default();
         let rendered = py.detach(|| {
-            render::render(&scene, &settings, environment, &mut |progress| {
+            render::render(&scene, &settings, around, &mut |progress| {
                 Python::attach(|py| look(py, watch.as_ref(), progress, &mut watched))
             })
         });
         if let Some(error) = watched.raised {
             return Err(error);
         }
-        let rendered = rendered.map_err(|e| errors::scene(&e, self.file()))?;
+        let mut rendered = rendered.map_err(|e| errors::scene(&e, self.file()))?;
+        rendered.messages.extend(told);
         let some = rendered.passes_done > 0;
         Ok((some.then(|| Picture::new(rendered, &settings)), watched.interrupted))
     }
@@ -72,12 +73,15 @@ fn look(py: Python<'_>, watch: Option<&Py<PyAny>>, progress: Progress, watched: 
     }
 }
 
-/// The light from all around that the settings ask for; `None` = the scene's own.
-fn environment(py: Python<'_>, settings: &Settings) -> PyResult<Option<Option<Light>>> {
+/// The light from all around that the settings ask for (`None` = the scene's own), and what its file made us say.
+pub fn environment(py: Python<'_>, settings: &Settings) -> PyResult<(Option<Option<Light>>, Vec<Message>)> {
     Ok(match settings.environment.as_deref() {
-        None => None,
-        Some("none") => Some(None),
-        Some("sky") => Some(Some(builtin::default_sky())),
-        Some(path) => Some(Some(environment_file(py, path)?.0.into())),
+        None => (None, Vec::new()),
+        Some("none") => (Some(None), Vec::new()),
+        Some("sky") => (Some(Some(builtin::default_sky())), Vec::new()),
+        Some(path) => {
+            let (light, messages) = environment_file(py, path)?;
+            (Some(Some(light.into())), messages)
+        }
     })
 }

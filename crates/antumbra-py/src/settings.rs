@@ -27,6 +27,22 @@ pub fn parse(words: &[(String, String)]) -> PyResult<Settings> {
     Ok(settings)
 }
 
+/// Settings of a query, which has no camera and no picture; `OptionError` names a word of those.
+pub fn parse_query(words: &[(String, String)]) -> PyResult<Settings> {
+    const PICTURES: [&str; 8] =
+        ["size", "viewing", "filter", "viewing_rays", "exposure", "tone", "aov", "exr"];
+    for (name, _) in words {
+        let camera = settings::TABLE.iter().any(|s| s.name == name && s.group == "Camera");
+        if camera || PICTURES.contains(&name.as_str()) {
+            let what = format!("{name} belongs to pictures: a query of points does not take it");
+            return Err(errors::option(&settings::SettingError { name: name.clone(), what }));
+        }
+    }
+    let settings = parse(words)?;
+    settings.check().map_err(|e| errors::value(format!("{e}; {}", e.hint)))?;
+    Ok(settings)
+}
+
 /// Raises `OptionError` unless every pair (name, text) is a setting with a value that it takes.
 #[pyfunction]
 pub fn check_settings(words: Vec<(String, String)>) -> PyResult<()> {

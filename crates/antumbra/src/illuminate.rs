@@ -91,14 +91,28 @@ pub fn illuminate(job: &Job<'_>, tile: Tile, passes: Range<u32>, film: &mut Film
             if b.receivers.is_empty() {
                 break;
             }
-            b.proposals.clear();
-            job.estimator.propose(job.scene, &b.receivers, &draws, &mut b.proposals);
-            gather(job, film, b, &mut counts);
-            follow(job, film, b, &mut counts);
+            bounce(job, &draws, film, b, &mut counts);
         }
         film.next_sample();
     }
     counts
+}
+
+/// Samples per receiver times receivers that are proposed at once: bounds what the buffers take.
+const BATCH: usize = 1 << 16;
+
+/// One step of the loop: the receivers propose, visibility answers, the film sums, the rays make the next receivers.
+fn bounce(job: &Job<'_>, draws: &Draws<'_>, film: &mut Film, b: &mut Buffers, counts: &mut Counts) {
+    let receivers = std::mem::take(&mut b.receivers);
+    let samples = draws.count(&receivers[0]) as usize;
+    b.next.clear();
+    for run in receivers.chunks((BATCH / samples).max(1)) {
+        b.proposals.clear();
+        job.estimator.propose(job.scene, run, draws, &mut b.proposals);
+        gather(job, film, b, counts);
+        follow(job, run, film, b, counts);
+    }
+    b.receivers = std::mem::replace(&mut b.next, receivers);
 }
 
 /// Adds what the free segments carry.
@@ -122,20 +136,18 @@ fn gather(job: &Job<'_>, film: &mut Film, b: &mut Buffers, counts: &mut Counts) 
 }
 
 /// Follows the rays: adds the light they find, makes receivers of the surfaces where they go on.
-fn follow(job: &Job<'_>, film: &mut Film, b: &mut Buffers, counts: &mut Counts) {
-    b.next.clear();
+fn follow(job: &Job<'_>, receivers: &[Receiver], film: &mut Film, b: &mut Buffers, counts: &mut Counts) {
     let rays = b.proposals.rays.as_segments();
     counts.rays += rays.len() as u64;
     if !rays.is_empty() {
         job.visibility.nearest(rays, &mut b.hits);
     }
     for (i, onward) in b.proposals.onward.iter().enumerate() {
-        let from = &b.receivers[onward.from as usize];
+        let from = &receivers[onward.from as usize];
         let (o, wi) = (Vec3::from(rays.origin_at(i)), Vec3::from(rays.end_at(i)));
         let plane = if from.bounce == 0 { Planes::DIRECT } else { Planes::INDIRECT };
         let mut find = |light, radiance| {
             let weight = match onward.found {
-                Found::Nothing => return,
                 Found::All => 1.0,
                 Found::Weighed => {
                     let found = FoundLight { from, ray: onward, light, wi };
@@ -173,7 +185,6 @@ fn follow(job: &Job<'_>, film: &mut Film, b: &mut Buffers, counts: &mut Counts) 
             });
         }
     }
-    std::mem::swap(&mut b.receivers, &mut b.next);
 }
 
 /// The planes about the lights, by segments of their own.

@@ -6,7 +6,7 @@ use crate::estimator::{AnyEstimator, EstimatorKind};
 use crate::film::{Film, Planes};
 use crate::illuminate::Job;
 use crate::light::Light;
-use crate::scene::{Camera, Level, Look, Message, Projection, Scene, SceneError};
+use crate::scene::{Camera, Level, Message, Projection, Scene, SceneError};
 use crate::schedule::{self, Finished, Flow, Progress};
 use crate::sensor::{CameraSensor, Seen, Tile, View};
 use crate::settings::{Masks, Settings};
@@ -50,13 +50,15 @@ pub fn render(
     environment: Option<Option<Light>>,
     watch: &mut dyn FnMut(Progress) -> Flow,
 ) -> Result<Picture, SceneError> {
-    let mut messages = Vec::new();
-    let scene = lit(scene, settings, environment)?;
+    let mut messages = settings.doubts();
+    settings.check()?;
+    let scene = settings.lit(scene, environment)?;
     let camera = camera(&scene, settings, &mut messages)?;
     let view = view(&camera, settings)?;
     let sensor = CameraSensor::new(&camera, view);
     let estimator = AnyEstimator::new(settings.estimator, &scene, settings.options());
-    for text in estimator.blind_to(&scene) {
+    let clay = settings.clay.is_some() && settings.estimator == EstimatorKind::Area;
+    for text in estimator.blind_to(&scene).into_iter().filter(|_| !clay) {
         messages.push(Message { level: Level::Warning, place: String::new(), text });
     }
     if scene.lights().is_empty() && settings.estimator != EstimatorKind::AmbientOcclusion {
@@ -78,7 +80,7 @@ pub fn render(
         bounces: bounces(settings),
         passes: settings.passes_of(settings.viewing_rays),
         planes: settings.aov,
-        look: Look { clay: settings.clay, start: settings.self_intersection },
+        look: settings.look(),
         seen: seen(settings),
         shadows: settings.shadows,
         distance_test: settings.distance_test,
@@ -102,24 +104,6 @@ pub fn camera_rays(scene: &Scene, settings: &Settings) -> Result<Vec<(Vec3, Vec3
     let centre = |from: u32, i: u32| f64::from(from + i) + 0.5;
     let rows = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
     Ok(rows.map(|(x, y)| sensor.ray(centre(left, x), centre(top, y))).collect())
-}
-
-/// The scene with the lights that the settings leave on.
-fn lit(scene: &Scene, settings: &Settings, environment: Option<Option<Light>>) -> Result<Scene, SceneError> {
-    let scene = match environment {
-        Some(light) => scene.under(light),
-        None => scene.clone(),
-    };
-    if settings.light.is_empty() {
-        return Ok(scene);
-    }
-    scene.only_lights(&settings.light).map_err(|unknown| {
-        let mut known: Vec<&str> = scene.light_names().names.iter().map(String::as_str).collect();
-        known.dedup();
-        known.truncate(20);
-        let hint = format!("its lights are: {}", known.join(", "));
-        SceneError::new("", format!("there is no light \"{unknown}\""), hint)
-    })
 }
 
 /// Estimators of direct light end after one bounce.

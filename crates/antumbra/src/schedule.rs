@@ -118,8 +118,8 @@ fn rounds(plan: &PassPlan) -> Vec<Round> {
     let mut rounds = Vec::new();
     for r in 0..plan.replicates {
         let (begin, end) = (plan.begin(r), plan.begin(r + 1));
-        for from in (begin..end).step_by(LONGEST_ROUND as usize) {
-            let to = (from + LONGEST_ROUND).min(end);
+        for from in (begin..end.min(plan.until)).step_by(LONGEST_ROUND as usize) {
+            let to = (from + LONGEST_ROUND).min(end).min(plan.until);
             rounds.push(Round { passes: from..to, ends_replicate: to == end });
         }
     }

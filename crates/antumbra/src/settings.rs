@@ -3,15 +3,16 @@
 //! Command line, Python and picture metadata are made from [`TABLE`]; [`Settings`] holds one value of each. A new
 //! setting is one entry of `settings!`.
 
+mod meaning;
 mod value;
 
 pub use crate::scene::nearest;
 pub use value::SettingValue;
 
-use crate::estimator::{Directions, EstimatorKind, Falloff, LightChoice, Mistake, Options};
+use crate::estimator::{Directions, EstimatorKind, Falloff, LightChoice, Mistake};
 use crate::film::Planes;
 use crate::light::LightPoints;
-use crate::sampler::{AnySampler, Pairing, PassPlan, SamplerKind, SamplerOptions};
+use crate::sampler::{Pairing, SamplerKind};
 use crate::scene::Start;
 use crate::sensor::{Filter, Viewing};
 use value::choices;
@@ -95,7 +96,7 @@ settings! {
         /// how reflected light is written as an integral and sampled
         estimator: EstimatorKind = EstimatorKind::Path;
         /// shadow rays per receiver (and light, with `lights` = all)
-        shadow_rays: u32 = 1, |n| at_least_one(*n, "use shadows = off to leave shadows out");
+        shadow_rays: u32 = 1, |n| count(*n, 1 << 20, "use shadows = off to leave shadows out");
         /// longest path: 0 = emission only, 1 = direct light
         bounces: u32 = 8, |n| within(*n as f64, 0.0, 1000.0);
         /// every light, or one chosen per shadow ray; auto: all up to 4 lights, else the best chooser
@@ -131,7 +132,9 @@ settings! {
     }
     "Sampling" {
         /// viewing rays per pixel
-        viewing_rays: u32 = 16, |n| at_least_one(*n, "one viewing ray sees something");
+        viewing_rays: u32 = 16, |n| count(*n, 1 << 24, "one viewing ray sees something");
+        /// stop after this many of the viewing rays: what a stopped picture holds, again
+        passes: Option<u32> = None, |n| n.map_or(Ok(()), |n| count(n, 1 << 24, "one pass is the least"));
         /// where the random numbers come from
         sampler: SamplerKind = SamplerKind::Owen;
         /// shift the regular sampler's grid by a random offset per receiver
@@ -148,6 +151,8 @@ settings! {
     "Looks" {
         /// brighten a PNG by this many stops
         exposure: f32 = 0.0, |e| within(f64::from(*e), -100.0, 100.0);
+        /// numbers in an EXR: auto = half, or float in layers that half cannot hold
+        exr: ExrNumbers = ExrNumbers::Auto;
         /// tone curve of a PNG
         tone: Tone = Tone::Linear;
         /// every surface two-sided diffuse with this reflectance
@@ -185,6 +190,18 @@ pub enum Tone {
     Filmic,
 }
 
+/// How an EXR stores its numbers.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ExrNumbers {
+    /// Half, or float in layers that half cannot hold.
+    #[default]
+    Auto,
+    /// 16 bits.
+    Half,
+    /// 32 bits.
+    Float,
+}
+
 /// What alpha masks do.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Masks {
@@ -205,40 +222,11 @@ choices!(SamplerKind: Owen "owen", Random "random", Stratified "stratified", Reg
 choices!(Pairing: FourD "4d", TwoD "2d");
 choices!(Viewing: Filter "filter", Centre "centre");
 choices!(Filter: BlackmanHarris "blackman-harris", Box "box", Tent "tent", Gaussian "gaussian");
+choices!(ExrNumbers: Auto "auto", Half "half", Float "float");
 choices!(Tone: Linear "linear", Filmic "filmic");
 choices!(Masks: File "file", Opaque "opaque");
 choices!(Mistake: None "none", NoCosLight "no-cos-light", NoDistance "no-distance", WrongMeasure "wrong-measure",
     CountedTwice "counted-twice", NoCount "no-count");
-
-impl Settings {
-    /// What estimators are made of.
-    pub fn options(&self) -> Options {
-        Options {
-            shadow_rays: self.shadow_rays,
-            bounces: self.bounces,
-            lights: self.lights,
-            light_points: self.light_points,
-            directions: self.directions,
-            roulette: self.roulette,
-            radius: self.radius,
-            falloff: self.falloff,
-            mistake: self.mistake,
-        }
-    }
-
-    /// The passes of a render with `count` samples. A grid that is the same for all has no independent replicates: it is
-    /// one set, and its error is not known.
-    pub fn passes_of(&self, count: u32) -> PassPlan {
-        let fixed = self.sampler == SamplerKind::Regular && !self.rotate;
-        if fixed { PassPlan { count, replicates: 1 } } else { PassPlan::of(count) }
-    }
-
-    /// Where the random numbers come from.
-    pub fn sampler(&self) -> AnySampler {
-        let options = SamplerOptions { seed: self.seed, pairing: self.pairing, rotate: self.rotate };
-        AnySampler::new(self.sampler, options)
-    }
-}
 
 fn fault(name: &str, text: &str, what: String) -> SettingError {
     let what = match what.strip_prefix("there is no ") {
@@ -257,8 +245,12 @@ fn unknown(name: &str) -> SettingError {
     }
 }
 
-fn at_least_one(n: u32, otherwise: &str) -> Result<(), String> {
-    if n == 0 { Err(format!("at least 1 is needed ({otherwise})")) } else { Ok(()) }
+fn count(n: u32, most: u32, otherwise: &str) -> Result<(), String> {
+    match n {
+        0 => Err(format!("at least 1 is needed ({otherwise})")),
+        n if n > most => Err(format!("at most {most} are possible")),
+        _ => Ok(()),
+    }
 }
 
 fn positive(x: f32) -> Result<(), String> {

@@ -13,6 +13,7 @@ mod texels;
 mod text;
 mod uri;
 
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 use antumbra::scene::{Level, Message, SceneBuilder};
@@ -164,7 +165,10 @@ fn read_file(path: &Path, options: &ReadOptions) -> Result<SceneBuilder, ReadErr
 
 /// Messages that are counted and said once.
 #[derive(Default)]
-pub(crate) struct Counted(Vec<(Message, usize)>);
+pub(crate) struct Counted {
+    said: Vec<(Message, usize)>,
+    known: HashMap<String, usize>,
+}
 
 impl Counted {
     /// Says `text` about `place`; the same text again only counts.
@@ -178,15 +182,18 @@ impl Counted {
     }
 
     fn say(&mut self, level: Level, place: String, text: String) {
-        match self.0.iter_mut().find(|(m, _)| m.text == text) {
-            Some((_, n)) => *n += 1,
-            None => self.0.push((Message { level, place, text }, 1)),
+        match self.known.get(&text) {
+            Some(at) => self.said[*at].1 += 1,
+            None => {
+                self.known.insert(text.clone(), self.said.len());
+                self.said.push((Message { level, place, text }, 1));
+            }
         }
     }
 
     /// Puts what was said into the scene.
     pub(crate) fn into_scene(self, scene: &mut SceneBuilder) {
-        for (mut message, n) in self.0 {
+        for (mut message, n) in self.said {
             if n > 1 {
                 message.text.push_str(&format!(" (and {} more like it)", n - 1));
             }

@@ -26,7 +26,8 @@ impl Estimator for Area {
 
     fn blind_to(&self, scene: &Scene) -> Vec<String> {
         let mirror = |m: &crate::scene::Material| matches!(m.surface, crate::scene::Surface::Mirror { .. });
-        let blind = scene.materials.iter().any(mirror);
+        let seen = |o: &crate::scene::Placed| mirror(&scene.materials[o.material as usize]);
+        let blind = scene.objects.iter().any(seen);
         blind
             .then(|| "estimator area does not see lights in mirrors (mis and path do)".into())
             .into_iter()

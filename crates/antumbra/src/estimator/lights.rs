@@ -113,7 +113,8 @@ impl Lights {
         if let (Some(other), Density::SolidAngle(p)) = (other, s.density) {
             carried = carried * balance(n as f32 * prob * p, n as f32 * other(&s));
         }
-        carried = carried * self.mistaken(&s, n) * at.throughput;
+        let covered = scene.coverage(s.prim, at.p + s.wi * s.distance);
+        carried = carried * (self.mistaken(&s, n) * covered) * at.throughput;
         if !carried.is_black() && carried.is_finite() {
             out.segment(at, j, &s, plane_of(at), carried / n as f32);
         }
@@ -176,7 +177,7 @@ pub fn propose_planes(
             let light = if lights <= EACH {
                 k
             } else {
-                ((u.pair_for(k, at, Use::Lens, Nth::ONLY)[0] * lights as f32) as u32).min(lights - 1)
+                ((u.pair_for(k, at, Use::LightChoice, Nth::ONLY)[0] * lights as f32) as u32).min(lights - 1)
             };
             let light = &scene.lights()[light as usize];
             let point = u.pair_for(k, at, Use::LightPoint, Nth::ONLY);

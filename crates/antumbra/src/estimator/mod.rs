@@ -131,7 +131,9 @@ impl<'a> Draws<'a> {
 
     #[inline]
     fn pair_of(&self, stream: u32, at: &Receiver, what: Use, Nth { j, n }: Nth) -> [f32; 2] {
-        self.sampler.pair(stream, at.index * n + j, self.of * n, what.at(at.bounce))
+        // Beyond 2³² samples a set begins again.
+        let index = at.index.wrapping_mul(n).wrapping_add(j);
+        self.sampler.pair(stream, index, self.of.saturating_mul(n), what.at(at.bounce))
     }
 }
 

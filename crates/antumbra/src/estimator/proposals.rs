@@ -23,8 +23,6 @@ pub struct Carried {
 /// What light that a ray finds counts for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Found {
-    /// Nothing: it was counted by light sampling.
-    Nothing,
     /// All of it: no other strategy draws it.
     All,
     /// Its share against light sampling.

@@ -37,7 +37,7 @@ impl Estimator for Surfaces {
                 let distance = distance2.sqrt();
                 let wi: World = to / distance;
                 let facing = -q.n.dot(wi);
-                let radiance = scene.emitted_at(q.prim, wi, facing > 0.0);
+                let radiance = scene.emitted_at(q.prim, wi, facing > 0.0) * scene.coverage(q.prim, q.p);
                 if radiance.is_black() || !at.sees_side(wi) || facing == 0.0 || distance2 == 0.0 {
                     continue;
                 }

@@ -11,7 +11,6 @@ use super::steps;
 use crate::texture::{Image, Texture, Wrap};
 
 /// The picture and what was computed from it once.
-#[derive(Debug)]
 pub struct LatLong {
     texture: Texture,
     /// Choice of the row, then per row of the texel (width entries each; a row without light has zeros).
@@ -22,6 +21,16 @@ pub struct LatLong {
     /// Luminance in the nine real spherical harmonics up to l = 2.
     harmonics: [f64; 9],
     fault: Option<String>,
+}
+
+/// Short: its size and a hash of its light, not a million texels.
+impl std::fmt::Debug for LatLong {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let light = self.rows.iter().chain(&self.columns).copied();
+        let color = self.texture.image.mean().0.map(f32::to_bits);
+        let hash = antumbra_math::hash::fnv1a_words(light.chain(color));
+        write!(f, "LatLong({} x {}, {hash:016x})", self.texture.image.width, self.texture.image.height)
+    }
 }
 
 /// A direction drawn from the picture.

@@ -9,7 +9,7 @@ use crate::illuminate::Job;
 use crate::light::{LightId, LightPoints};
 use crate::receiver::Receiver;
 use crate::sampler::{Use, stream};
-use crate::scene::{Look, Scene};
+use crate::scene::Scene;
 use crate::schedule::{self, Flow, Progress};
 use crate::sensor::{PointSensor, Query, Seen};
 use crate::settings::{Masks, Settings};
@@ -71,7 +71,7 @@ fn estimate(
         bounces: if paths { settings.bounces } else { 1 },
         passes: settings.passes_of(settings.shadow_rays),
         planes: Planes::NONE,
-        look: Look::default(),
+        look: settings.look(),
         seen,
         shadows: settings.shadows,
         distance_test: settings.distance_test,
@@ -97,7 +97,7 @@ pub fn visible_fraction(
     settings: &Settings,
     watch: &mut dyn FnMut(u64) -> Flow,
 ) -> Estimated {
-    const CHUNK: usize = 1024;
+    const CHUNK: usize = 64;
     let visibility = scene.visibility(settings.masks == Masks::Opaque);
     let mut seen = vec![[f32::NAN; 2]; queries.len()];
     let work = |from: usize, out: &mut [[f32; 2]], buffers: &mut (Proposals, Bits)| {

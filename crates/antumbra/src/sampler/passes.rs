@@ -7,12 +7,14 @@ pub struct PassPlan {
     pub count: u32,
     /// Independent replicates.
     pub replicates: u32,
+    /// Stop after this many.
+    pub until: u32,
 }
 
 impl PassPlan {
     /// R = 4 replicates below 256 passes, 16 from there; never more than passes.
     pub fn of(count: u32) -> PassPlan {
-        PassPlan { count, replicates: if count < 256 { 4.min(count) } else { 16 } }
+        PassPlan { count, replicates: if count < 256 { 4.min(count) } else { 16 }, until: count }
     }
 
     /// First pass of replicate `r`.

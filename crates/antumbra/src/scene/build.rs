@@ -37,8 +37,14 @@ impl SceneBuilder {
         parts.finish(self, pool)
     }
 
-    fn check_materials(&self) -> Result<(), SceneError> {
-        for (i, m) in self.materials.iter().enumerate() {
+    fn check_materials(&mut self) -> Result<(), SceneError> {
+        for i in 0..self.materials.len() {
+            if self.materials[i].tame() {
+                let text =
+                    "reflects more than all light, or a number is not finite: taken into 0 to 1".to_string();
+                self.say(Level::Warning, material_place(i, &self.materials[i]), text);
+            }
+            let m = &self.materials[i];
             for texture in [m.color, m.metallic_roughness].into_iter().flatten() {
                 if texture as usize >= self.textures.len() {
                     let what = format!("asks for texture {texture} of {}", self.textures.len());
@@ -78,6 +84,9 @@ impl SceneBuilder {
                         format!("{} {what} for {n} vertices: one a vertex is needed", len.unwrap_or(0));
                     return Err(SceneError::new(place, what, ""));
                 }
+            }
+            if mesh.colors.as_mut().is_some_and(|c| tame_all(c.as_flattened_mut())) {
+                said.push((place.clone(), "vertex colours outside of 0 to 1: taken into it".into()));
             }
             let dropped = drop_unusable(&mut mesh.triangles);
             if dropped > 0 {
@@ -181,6 +190,11 @@ impl SceneBuilder {
 
 fn material_place(i: usize, m: &Material) -> String {
     if m.name.is_empty() { format!("material {i}") } else { format!("material \"{}\"", m.name) }
+}
+
+/// Takes every number into [0, 1], NaN to 0; says whether one had to be.
+fn tame_all(numbers: &mut [f32]) -> bool {
+    numbers.iter_mut().fold(false, |any, x| super::material::tame(x) | any)
 }
 
 /// Leaves out triangles with a corner that is not finite; returns how many. Unused vertices become the origin.

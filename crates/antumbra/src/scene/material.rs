@@ -96,6 +96,21 @@ impl Material {
         Material { emission, ..Material::diffuse(Rgb::BLACK) }
     }
 
+    /// Takes every factor into [0, 1]; says whether one had to be.
+    pub(super) fn tame(&mut self) -> bool {
+        let mut any = tame(&mut self.opacity);
+        let color = match &mut self.surface {
+            Surface::Diffuse { albedo } => albedo,
+            Surface::Mirror { reflectance } => reflectance,
+            Surface::MetallicRoughness { base, metallic, roughness } => {
+                any |= tame(metallic) | tame(roughness);
+                base
+            }
+        };
+        color.0.iter_mut().for_each(|c| any |= tame(c));
+        any
+    }
+
     /// The same with a name.
     pub fn named(self, name: impl Into<String>) -> Material {
         Material { name: name.into(), ..self }
@@ -112,4 +127,13 @@ impl Material {
             opacity: 1.0,
         }
     }
+}
+
+/// Takes a number into [0, 1], NaN to 0; says whether it had to be.
+pub(super) fn tame(x: &mut f32) -> bool {
+    let fits = (0.0..=1.0).contains(x);
+    if !fits {
+        *x = if x.is_nan() { 0.0 } else { x.clamp(0.0, 1.0) };
+    }
+    !fits
 }

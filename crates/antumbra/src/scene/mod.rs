@@ -5,6 +5,7 @@ mod build;
 mod builder;
 pub mod builtin;
 mod camera;
+mod fingerprint;
 mod material;
 mod message;
 mod parts;

@@ -3,7 +3,9 @@
 use std::sync::Arc;
 
 use antumbra_math::{Rgb, Transform, Vec3, World as Direction, hash};
-use antumbra_trace::{Bits, Hits, Passes, PrimId, Segments, SimdLevel, Triangles, Visibility, World};
+use antumbra_trace::{
+    Bits, Hits, NO_PRIM, Passes, PrimId, Segments, SimdLevel, Triangles, Visibility, World,
+};
 
 use super::{Alpha, Body, Camera, Material, Message};
 use crate::light::{Light, LightId};
@@ -204,24 +206,37 @@ impl Scene {
         SceneVisibility { scene: self, opaque: opaque || !self.world.has_masks() }
     }
 
-    /// A number that changes with anything that is seen: geometry, places, looks, lights, cameras.
-    pub fn content_hash(&self) -> u64 {
-        let mut all = 0u64;
-        let mut take = |h: u64| all = all.rotate_left(5).wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ h;
-        for mesh in self.meshes.iter() {
-            let bits = |v: &[f32; 3]| v.iter().fold(0u64, |h, c| h.rotate_left(21) ^ u64::from(c.to_bits()));
-            mesh.triangles.vertices.iter().for_each(|v| take(bits(v)));
-            mesh.triangles.indices.iter().for_each(|[a, b, c]| {
-                take(u64::from(*a) ^ u64::from(*b).rotate_left(21) ^ u64::from(*c).rotate_left(42));
-            });
-            mesh.normals.iter().flatten().for_each(|v| take(bits(v)));
+    /// The share of rays that a light's own surface stops at the point `p` of `prim`: what it emits there counts as much.
+    /// 1 but for alpha masks.
+    pub fn coverage(&self, prim: PrimId, p: Vec3) -> f32 {
+        if prim == NO_PRIM || !self.world.has_masks() {
+            return 1.0;
         }
-        let text = |x: &dyn std::fmt::Debug| hash::fnv1a(format!("{x:?}").as_bytes());
-        self.objects.iter().for_each(|o| take(text(&(&o.body, o.transform, o.material))));
-        self.materials.iter().for_each(|m| take(text(m)));
-        self.lights.iter().for_each(|l| take(text(l)));
-        self.cameras.iter().for_each(|c| take(text(c)));
-        all
+        let (object, local) = self.locate(prim);
+        let how = self.materials[object.material as usize].alpha;
+        if how == Alpha::Opaque {
+            return 1.0;
+        }
+        let alpha = self.alpha(object, local, self.weights_at(object, local, p));
+        match how {
+            Alpha::Mask { cutoff } => f32::from(u8::from(alpha >= cutoff)),
+            _ => alpha,
+        }
+    }
+
+    /// Weights of the second and third corner at a point of a triangle's plane, in world space.
+    fn weights_at(&self, object: &Placed, local: u32, p: Vec3) -> [f32; 2] {
+        let Body::Mesh(mesh) = object.body else { return [0.0; 2] };
+        let corners = self.meshes[mesh as usize].triangles.corners(local as usize);
+        let placed = |c: [f32; 3]| {
+            let c = Vec3::from(c).as_dvec3();
+            object.transform.map_or(c, |t| t.point(c))
+        };
+        let [a, b, c] = corners.map(placed);
+        let (e, f, d) = (b - a, c - a, p.as_dvec3() - a);
+        let n = e.cross(f);
+        let scale = 1.0 / n.length_squared();
+        [d.cross(f).dot(n) * scale, e.cross(d).dot(n) * scale].map(|w| w.clamp(0.0, 1.0) as f32)
     }
 
     /// Alpha of a masked surface at `uv`, in [0, 1].

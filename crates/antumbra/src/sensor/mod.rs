@@ -68,8 +68,6 @@ pub struct Scratch {
     pub rays: SegmentBuffer,
     /// What they met.
     pub hits: Hits,
-    /// The cell of each ray.
-    pub cells: Vec<u32>,
 }
 
 /// Law: a pure function of (tile, pass); every receiver's cell lies in the tile's film.

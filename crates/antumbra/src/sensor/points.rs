@@ -9,8 +9,10 @@ use crate::film::Film;
 use crate::receiver::Receiver;
 use crate::sampler::stream;
 
-/// Points of a tile.
-const RUN: u32 = 1024;
+/// Points of a tile: enough for a batch, few enough that all cores have some.
+fn run(points: u32) -> u32 {
+    (points / 32).clamp(32, 1024)
+}
 
 /// A point that asks for light.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -76,6 +78,6 @@ impl Sensor for PointSensor<'_> {
     }
 
     fn tiles(&self) -> Vec<Tile> {
-        super::grid(self.size(), [RUN, 1])
+        super::grid(self.size(), [run(self.size()[0]), 1])
     }
 }

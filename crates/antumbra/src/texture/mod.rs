@@ -112,10 +112,11 @@ impl Texture {
         let m = &self.map;
         let u = m[0] * uv[0] + m[1] * uv[1] + m[2];
         let v = m[3] * uv[0] + m[4] * uv[1] + m[5];
-        if !(u.is_finite() && v.is_finite()) {
+        let (w, h) = (self.image.width, self.image.height);
+        // Beyond 2³¹ texels f32 holds no place between texels any more.
+        if !((u * w as f32).abs() < 2e9 && (v * h as f32).abs() < 2e9) {
             return self.image.texel(0, 0);
         }
-        let (w, h) = (self.image.width, self.image.height);
         if self.nearest {
             let x = wrap(real::floorf(u * w as f32) as i64, w, self.wrap[0]);
             let y = wrap(real::floorf(v * h as f32) as i64, h, self.wrap[1]);

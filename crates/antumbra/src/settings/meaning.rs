@@ -1,0 +1,96 @@
+//! What settings mean for the rooms below: estimator, sampler, passes, lights; and which contradict each other.
+
+use super::{SettingValue, Settings};
+use crate::estimator::{EstimatorKind, Falloff, Mistake, Options};
+use crate::light::Light;
+use crate::sampler::{AnySampler, PassPlan, SamplerKind, SamplerOptions};
+use crate::scene::{Level, Look, Message, Scene, SceneError};
+
+impl Settings {
+    /// What estimators are made of.
+    pub fn options(&self) -> Options {
+        Options {
+            shadow_rays: self.shadow_rays,
+            bounces: self.bounces,
+            lights: self.lights,
+            light_points: self.light_points,
+            directions: self.directions,
+            roulette: self.roulette,
+            radius: self.radius,
+            falloff: self.falloff,
+            mistake: self.mistake,
+        }
+    }
+
+    /// The passes of a render with `count` samples. A grid that is the same for all has no independent replicates: it is
+    /// one set, and its error is not known.
+    pub fn passes_of(&self, count: u32) -> PassPlan {
+        let fixed = self.sampler == SamplerKind::Regular && !self.rotate;
+        let plan = PassPlan::of(count);
+        let replicates = if fixed { 1 } else { plan.replicates };
+        PassPlan { replicates, until: self.passes.unwrap_or(count).min(count), ..plan }
+    }
+
+    /// The scene with the lights that the settings leave on; `environment` replaces the light from all around
+    /// (`Some(None)`: none).
+    pub fn lit(&self, scene: &Scene, environment: Option<Option<Light>>) -> Result<Scene, SceneError> {
+        let scene = match environment {
+            Some(light) => scene.under(light),
+            None => scene.clone(),
+        };
+        if self.light.is_empty() {
+            return Ok(scene);
+        }
+        scene.only_lights(&self.light).map_err(|unknown| {
+            let mut known: Vec<&str> = scene.light_names().names.iter().map(String::as_str).collect();
+            known.dedup();
+            known.truncate(20);
+            let hint = format!("its lights are: {}", known.join(", "));
+            SceneError::new("", format!("there is no light \"{unknown}\""), hint)
+        })
+    }
+
+    /// How the scene is looked at.
+    pub fn look(&self) -> Look {
+        Look { clay: self.clay, start: self.self_intersection }
+    }
+
+    /// Refuses settings that contradict each other.
+    pub fn check(&self) -> Result<(), SceneError> {
+        if self.falloff != Falloff::None && self.radius.is_infinite() {
+            let what = format!("falloff {} needs a radius", self.falloff.show());
+            return Err(SceneError::new(
+                "",
+                what,
+                "give --radius R, the distance at which an occluder stops counting",
+            ));
+        }
+        Ok(())
+    }
+
+    /// Teaching switches that do nothing with the estimator that was chosen.
+    pub fn doubts(&self) -> Vec<Message> {
+        use EstimatorKind::{Area, Hemisphere, Mis, Path};
+        let kinds: &[EstimatorKind] = match self.mistake {
+            Mistake::None => return Vec::new(),
+            Mistake::NoCosLight | Mistake::NoDistance | Mistake::WrongMeasure => &[Area, Mis, Path],
+            Mistake::CountedTwice => &[Mis, Path],
+            Mistake::NoCount => &[Area, Hemisphere, Mis, Path],
+        };
+        if kinds.contains(&self.estimator) {
+            return Vec::new();
+        }
+        let text = format!(
+            "mistake {} is none with estimator {}: the picture is right",
+            self.mistake.show(),
+            self.estimator.show()
+        );
+        vec![Message { level: Level::Warning, place: String::new(), text }]
+    }
+
+    /// Where the random numbers come from.
+    pub fn sampler(&self) -> AnySampler {
+        let options = SamplerOptions { seed: self.seed, pairing: self.pairing, rotate: self.rotate };
+        AnySampler::new(self.sampler, options)
+    }
+}
