@@ -144,7 +144,7 @@ fn random_map(r: &mut Rng) -> Transform {
 #[test]
 fn shapes_and_instances() {
     let mut r = Rng::new(3);
-    for round in 0..amount(12, 200) {
+    for round in 0..amount(12, 80) {
         let (soup, field) = (meshes::soup(&mut r, 40, 0.5), meshes::field(&mut r, 4));
         let list = shapes(&mut r, 30);
         let geometries = [geometry(soup.clone()), Geometry::Shapes(list), geometry(field)];
