@@ -67,6 +67,9 @@ pub(crate) fn prefetch<T>(of: &[T], i: usize) {
     let _ = (of, i);
 }
 
+/// Every node on the way down leaves at most seven children behind.
+const STACK: usize = MAX_DEPTH * (WIDTH - 1) + 1;
+
 /// A stack that is not cleared. Holds at most `N` elements: the pushes are bounded by the depth of the tree.
 struct Stack<T: Copy, const N: usize> {
     slots: [MaybeUninit<T>; N],
@@ -86,6 +89,14 @@ impl<T: Copy, const N: usize> Stack<T, N> {
         self.len += 1;
     }
 
+    /// The element that [`pop`](Stack::pop) would take.
+    #[inline(always)]
+    fn top(&self) -> Option<T> {
+        let last = self.len.checked_sub(1)?;
+        // SAFETY: slots[0 .. len] were written by `push`, see `pop`.
+        Some(unsafe { self.slots[last].assume_init() })
+    }
+
     #[inline(always)]
     fn pop(&mut self) -> Option<T> {
         self.len = self.len.checked_sub(1)?;
@@ -95,7 +106,8 @@ impl<T: Copy, const N: usize> Stack<T, N> {
     }
 }
 
-/// Anything blocks the line between 0 and its tmax. Children are visited in their stored order.
+/// Anything blocks the line between 0 and its tmax. A line that ends visits nearer boxes first; one that does not
+/// visits children in their stored order, where the large blockers of a closed room come first.
 #[inline(always)]
 pub(crate) fn any_hit<S: Simd>(
     simd: S,
@@ -105,30 +117,48 @@ pub(crate) fn any_hit<S: Simd>(
 ) -> bool {
     let ray = BoxRay::new(simd, line);
     let tmax = f32x8::splat(simd, line.tmax);
-    // One entry a level: a node and its children still to visit.
-    let mut stack = Stack::<(u32, u32), MAX_DEPTH>::new();
-    let mut at = 0;
-    let mut left = meet(simd, &nodes[0], &ray, tmax).0;
+    let ends = line.tmax < f32::INFINITY;
+    let mut stack = Stack::<(f32, Child), STACK>::new();
+    let mut at = Child::node(0);
     loop {
-        if left == 0 {
-            let Some((node, children)) = stack.pop() else { return false };
-            (at, left) = (node as usize, children);
-        }
-        let child = nodes[at].child[left.trailing_zeros() as usize % WIDTH];
-        left &= left - 1;
-        if child.is_leaf() {
-            if visit.any(simd, child.index()) {
+        if at.is_leaf() {
+            if visit.any(simd, at.index()) {
                 return true;
             }
-            continue;
+        } else {
+            let node = &nodes[at.index()];
+            let (met, enter) = meet(simd, node, &ray, tmax);
+            if met & met.wrapping_sub(1) != 0 {
+                at = if ends {
+                    nearest_child(node, met, &enter.to_array(), &mut stack)
+                } else {
+                    first_child(node, met, &mut stack)
+                };
+                if let Some((_, next)) = stack.top() {
+                    visit.fetch(nodes, next);
+                }
+                continue;
+            }
+            if met != 0 {
+                at = node.child[met.trailing_zeros() as usize % WIDTH];
+                continue;
+            }
         }
-        if left != 0 {
-            stack.push((at as u32, left));
-            visit.fetch(nodes, nodes[at].child[left.trailing_zeros() as usize % WIDTH]);
-        }
-        at = child.index();
-        left = meet(simd, &nodes[at], &ray, tmax).0;
+        let Some((_, next)) = stack.pop() else { return false };
+        at = next;
     }
+}
+
+/// The first child of `met`; the others go on the stack, first on top.
+#[inline(always)]
+fn first_child<const N: usize>(node: &Node, met: u32, stack: &mut Stack<(f32, Child), N>) -> Child {
+    let mut left = met & (met - 1);
+    while left != 0 {
+        let lane = 31 - left.leading_zeros();
+        left ^= 1 << lane;
+        stack.push((0.0, node.child[lane as usize % WIDTH]));
+    }
+    node.child[met.trailing_zeros() as usize % WIDTH]
 }
 
 /// Visits all that may hold the closest hit, nearer boxes first.
@@ -141,7 +171,7 @@ pub(crate) fn nearest_hit<S: Simd>(
 ) {
     let ray = BoxRay::new(simd, line);
     let mut tmax = line.tmax;
-    let mut stack = Stack::<(f32, Child), { MAX_DEPTH * (WIDTH - 1) + 1 }>::new();
+    let mut stack = Stack::<(f32, Child), STACK>::new();
     let mut at = Child::node(0);
     loop {
         if at.is_leaf() {

@@ -63,8 +63,9 @@ pub(crate) fn any_hit_exact(
     visit: &mut impl ExactVisit,
     count: &mut impl Count,
 ) -> bool {
-    let mut stack = vec![Child::node(0)];
-    while let Some(at) = stack.pop() {
+    let ends = line.tmax < f64::INFINITY;
+    let mut stack = vec![(0.0, Child::node(0))];
+    while let Some((_, at)) = stack.pop() {
         if at.is_leaf() {
             if visit.any(at.index(), count) {
                 return true;
@@ -73,9 +74,13 @@ pub(crate) fn any_hit_exact(
         }
         let node = &nodes[at.index()];
         count.boxes(node.count());
-        // The best child ends on top.
-        let met = (0..WIDTH).rev().filter(|&lane| meet(node, lane, line, line.tmax).is_some());
-        stack.extend(met.map(|lane| node.child[lane]));
+        let first = stack.len();
+        let met = |lane| Some((meet(node, lane, line, line.tmax)?, node.child[lane]));
+        // The best child ends on top: in stored order, or the nearest (as the f32 way does).
+        stack.extend((0..WIDTH).rev().filter_map(met));
+        if ends {
+            stack[first..].sort_by(|a, b| b.0.total_cmp(&a.0));
+        }
     }
     false
 }
