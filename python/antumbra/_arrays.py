@@ -37,7 +37,7 @@ def numbers(name: str, value: Any) -> Array:
 def matching(name: str, value: Any, other: str, count: int, columns: int = 3) -> Array:
     """Rows, one for each of the `count` rows of `other`; a single vector stands for all."""
     array = numbers(name, value)
-    if array.shape == (columns,) and columns != count:
+    if array.shape == (columns,):
         return cast("Array", np.broadcast_to(array, (count, columns)))
     array = rows(name, array, columns)
     if len(array) != count:

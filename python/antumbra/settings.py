@@ -81,4 +81,4 @@ def as_typed(text: str) -> str:
         name = found["name"]
         return table()[name].option + " " if name in table() else found[0]
 
-    return re.sub(r"`?\b(?P<name>[a-z]+(?:_[a-z]+)*)\b`? = ", option, text)
+    return re.sub(r"(?<![-\w])`?(?P<name>[a-z]+(?:_[a-z]+)*)`? = ", option, text)

@@ -124,10 +124,10 @@ fn check(scene: &Builtin, of: &Parameter, value: f64) -> Result<(), SceneError> 
     let Parameter { name, low, high, help, .. } = of;
     let wrong = |what: String| Err(SceneError::new(scene.name, what, format!("{name}: {help}.")));
     if !(*low..=*high).contains(&value) {
-        return wrong(format!("{name} = {value} is outside {low} … {high}"));
+        return wrong(format!("parameter {name}: {value} is outside {low} … {high}"));
     }
     if of.whole && value.fract() != 0.0 {
-        return wrong(format!("{name} = {value} is not a whole number"));
+        return wrong(format!("parameter {name}: {value} is not a whole number"));
     }
     Ok(())
 }
