@@ -117,6 +117,24 @@ impl SegmentBuffer {
         }
     }
 
+    /// Entries of `from` in the given order, in place of what is here.
+    pub fn pick(&mut self, from: Segments<'_>, order: &[u32]) {
+        fn column<T: Copy>(out: &mut Vec<T>, from: &[T], order: &[u32]) {
+            out.clear();
+            out.extend(order.iter().map(|i| from[*i as usize]));
+        }
+        for axis in 0..3 {
+            column(&mut self.origin[axis], from.origin[axis], order);
+            column(&mut self.end[axis], from.end[axis], order);
+        }
+        column(&mut self.reach, from.reach, order);
+        for (out, from) in
+            [(&mut self.first, from.first), (&mut self.last, from.last), (&mut self.number, from.number)]
+        {
+            column(out, from, order);
+        }
+    }
+
     /// Forgets the entries, keeps the memory.
     pub fn clear(&mut self) {
         for axis in 0..3 {

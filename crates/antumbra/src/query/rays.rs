@@ -5,12 +5,17 @@ use std::ops::Range;
 use antumbra_math::Vec3;
 use antumbra_trace::{Bits, Hits, NO_PRIM, PrimId, SegmentBuffer, Visibility};
 
+use super::order::Order;
 use crate::receiver::Receiver;
 use crate::scene::{Look, Scene};
 use crate::schedule::{self, Flow};
 
 /// Rays of a chunk: enough for the batch calls, small enough for the cache.
 const CHUNK: usize = 4096;
+/// Most rays of a chunk: their numbers still lie in the second cache of a core.
+const LARGEST: usize = 1 << 16;
+/// Chunks into which a long question is cut at least.
+const SHARES: usize = 64;
 
 /// Writes the questions of a range into a buffer (it comes empty).
 pub type Fill<'a> = dyn Fn(Range<usize>, &mut SegmentBuffer) + Sync + 'a;
@@ -38,14 +43,25 @@ pub fn occluded(
     out: &mut [bool],
     watch: &mut dyn FnMut(u64) -> Flow,
 ) {
+    type State = (SegmentBuffer, Order, Bits);
     let visibility = scene.visibility(false);
-    let answer = |from: usize, out: &mut [bool], (buffer, bits): &mut (SegmentBuffer, Bits)| {
+    let answer = |from: usize, out: &mut [bool], (buffer, order, bits): &mut State| {
         buffer.clear();
         fill(from..from + out.len(), buffer);
-        visibility.occluded(buffer.as_segments(), bits);
-        out.iter_mut().enumerate().for_each(|(i, blocked)| *blocked = bits.get(i));
+        match order.of(scene.world(), buffer.as_segments()) {
+            None => {
+                visibility.occluded(buffer.as_segments(), bits);
+                out.iter_mut().enumerate().for_each(|(i, blocked)| *blocked = bits.get(i));
+            }
+            Some((sorted, order)) => {
+                visibility.occluded(sorted, bits);
+                order.iter().enumerate().for_each(|(k, i)| out[*i as usize] = bits.get(k));
+            }
+        }
     };
-    schedule::chunks(out, CHUNK, threads, answer, watch);
+    // Large chunks find more rays that go alike; every thread should have several.
+    let chunk = (out.len() / SHARES).clamp(CHUNK, LARGEST);
+    schedule::chunks(out, chunk, threads, answer, watch);
 }
 
 /// What each ray meets first.
