@@ -137,8 +137,10 @@ def _geometry(found: dict[str, Any]) -> str:
 def _lights(lights: list[dict[str, Any]]) -> str:
     kinds: dict[str, list[float]] = {}
     for light in lights:
-        kinds.setdefault(light["kind"], []).append(light["power"])
+        if light["kind"] != "environment":
+            kinds.setdefault(light["kind"], []).append(light["power"])
     listed = [f"{len(powers):,} {kind} ({_powers(powers)} W)" for kind, powers in kinds.items()]
+    listed += [f"environment {light['name']}".strip() for light in lights if light["kind"] == "environment"]
     return ", ".join(listed) or "none: the picture is black"
 
 
