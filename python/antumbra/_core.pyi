@@ -39,7 +39,7 @@ def write_picture(path: str, pixels: _F32) -> None: ...
 
 @final
 class Scene:
-    def __new__(cls, name: str) -> Scene: ...
+    def __new__(cls, name: str, origin: Sequence[float] = ...) -> Scene: ...
     @staticmethod
     def builtin(name: str, parameters: Sequence[tuple[str, float]], keep: bool = True) -> Scene: ...
     @staticmethod
@@ -89,7 +89,7 @@ class Scene:
     ) -> tuple[_F32, _F32]: ...
     def sample_light(
         self, points: Receivers | _Rows, normals: _Rows | None, u: _Rows, words: _Words
-    ) -> tuple[_F32, _F32, _F32, _F32, _F32, NDArray[np.uint32]]: ...
+    ) -> tuple[_F32, _F64, _F32, _F32, _F32, NDArray[np.uint32]]: ...
     def brdf(self, receivers: Receivers, wo: _Rows, wi: _Rows) -> _F32: ...
 
 @final
@@ -113,7 +113,6 @@ _Parts = tuple[
     list[tuple[str, _F32]],
     list[tuple[str, str]],
     tuple[int, int, int, int, int],
-    tuple[float, bool],
 ]
 
 @final
@@ -150,5 +149,4 @@ class Picture:
         aovs: Sequence[tuple[str, _F32]],
         metadata: Sequence[tuple[str, str]],
         counts: tuple[int, int, int, int, int],
-        look: tuple[float, bool],
     ) -> Picture: ...

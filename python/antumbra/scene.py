@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from antumbra import _core, settings
 from antumbra._arrays import indices, matching, numbers, per_row, places, rows
-from antumbra._values import Color, color
+from antumbra._values import Color, Vector, color, vector
 from antumbra.errors import Message, RenderStopped
 from antumbra.estimate import Estimate
 from antumbra.hit import Hit, Receivers
@@ -77,9 +77,13 @@ class Scene:
     True
     """
 
-    def __init__(self, name: str = "scene") -> None:
-        """An empty scene; `name` is what it is called in pictures."""
-        self._core = _core.Scene(name)
+    def __init__(self, name: str = "scene", *, origin: Vector = (0.0, 0.0, 0.0)) -> None:
+        """An empty scene; `name` is what it is called in pictures.
+
+        Places are kept in single precision, relative to `origin` (3,): one near the scene keeps their digits where
+        all coordinates are large. Everything that is given and returned stays in world coordinates.
+        """
+        self._core = _core.Scene(name, vector("origin", origin))
 
     @classmethod
     def _of(cls, core: _core.Scene) -> Scene:
@@ -348,7 +352,7 @@ class LightSamples(NamedTuple):
     """One drawn light point per receiver, as `Scene.sample_light` describes."""
 
     direction: NDArray[np.float32]
-    target: NDArray[np.float32]
+    target: NDArray[np.float64]
     distance: NDArray[np.float32]
     radiance: NDArray[np.float32]
     pdf: NDArray[np.float32]

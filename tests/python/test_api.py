@@ -49,6 +49,33 @@ def test_an_open_floor_is_open(floor):
     assert floor.visible_fraction([[0.0, 0, 0]], [[0.0, 1, 0]], light="lamp")[0] == 1
 
 
+@pytest.mark.parametrize("far", [0.0, 1e3, 5.2e6])
+def test_far_from_zero_everything_stays_where_it_is_about_an_origin(far):
+    """A scene of 2 units at 5.2·10⁶ (UTM) answers as the same scene at 0, because all is re-centred in f64."""
+    at = np.array([far, far / 3, -far])
+    scene = am.Scene(origin=at)
+    scene.add_mesh(SQUARE + at, FACES)
+    moved = np.eye(4)
+    moved[:3, 3] = at + [0, 0.5, 0]
+    scene.add_mesh(SQUARE / 10, FACES, transform=moved)
+    scene.add_light(am.lights.Point(at + [0, 2, 0], intensity=1.0))
+    scene.add_shape(am.shapes.Sphere(at + [0.5, 0.25, 0.5], 0.25))
+    points = at + np.array([[0.0, 0, 0], [0.3, 0, 0], [0.9, 0, -0.9]])
+    up = (0.0, 1.0, 0.0)
+    # f64 keeps 10⁻⁹ at 5·10⁶; the answers are those at 0 to single precision.
+    irradiance = np.asarray(scene.irradiance(points, up, shadow_rays=1, estimator="area"))[:, 0]
+    distance = np.sqrt(4 + ((points - at) ** 2).sum(axis=1))
+    np.testing.assert_allclose(irradiance, [0, 2 / distance[1] ** 3, 2 / distance[2] ** 3], rtol=1e-5, atol=0)
+    np.testing.assert_array_equal(scene.occluded(points, at + [0, 2, 0]), [True, False, False])
+    hit = scene.closest_hit(points + [0, 1, 0], (0.0, -1, 0))
+    np.testing.assert_allclose(hit.position - at, [[0, 0.5, 0], [0.3, 0, 0], [0.9, 0, -0.9]], atol=1e-6)
+    origins, _ = scene.camera_rays((2, 2), eye=at + [0, 1, 2], look_at=at)
+    np.testing.assert_allclose(origins - at, np.tile([0, 1, 2], (4, 1)), atol=1e-6)
+    draw = scene.sample_light(points, up, np.zeros((3, 3)))
+    np.testing.assert_allclose(draw.target - at, np.tile([0, 2, 0], (3, 1)), atol=1e-6)
+    np.testing.assert_allclose(np.array(scene.info()["bounds"]) - at, [[-1, 0, -1], [1, 0.5, 1]], atol=1e-6)
+
+
 def test_hits_know_where_they_are(floor):
     hit = floor.closest_hit([[0.25, 1, 0.5], [5, 1, 5]], [[0.0, -2, 0], [0, -1, 0]])
     assert hit.t[0] == 0.5 and np.isinf(hit.t[1])

@@ -34,10 +34,10 @@ pub enum Starts<'a> {
 }
 
 impl Origins<'_> {
-    /// A view; receivers must belong to `scene`.
-    pub fn view(&self, scene: &Arc<Scene>) -> PyResult<Starts<'_>> {
+    /// A view relative to the scene's origin; receivers must belong to `scene`.
+    pub fn view(&self, scene: &Arc<Scene>, origin: [f64; 3]) -> PyResult<Starts<'_>> {
         match self {
-            Origins::Rows(rows) => Ok(Starts::Points(rows.view())),
+            Origins::Rows(rows) => Ok(Starts::Points(rows.about(origin))),
             Origins::Receivers(receivers) if Arc::ptr_eq(receivers.scene(), scene) => {
                 Ok(Starts::Receivers(receivers))
             }

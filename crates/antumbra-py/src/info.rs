@@ -46,7 +46,7 @@ impl PyScene {
         out.set_item("meshes", meshes(&scene))?;
         out.set_item("objects", scene.objects.len())?;
         out.set_item("instances", scene.objects.iter().filter(|o| o.transform.is_some()).count())?;
-        out.set_item("bounds", scene.bounds().map(|b| b.map(|c| c.to_array())))?;
+        out.set_item("bounds", scene.bounds().map(|b| self.world_box(b)))?;
         out.set_item("tree_bytes", scene.world().stats().bytes)?;
         let listed = lights(&scene).into_iter().map(|l| light_dict(py, &l)).collect::<PyResult<Vec<_>>>()?;
         out.set_item("lights", PyList::new(py, listed)?)?;
@@ -59,6 +59,13 @@ impl PyScene {
         out.set_item("texture_bytes", texture_bytes(&scene))?;
         out.set_item("looks_wrong", scene.looks_wrong())?;
         Ok(out)
+    }
+}
+
+impl PyScene {
+    fn world_box(&self, corners: [antumbra::math::Vec3; 2]) -> [[f64; 3]; 2] {
+        let origin = self.origin();
+        corners.map(|corner| [0, 1, 2].map(|k| f64::from(corner[k]) + origin[k]))
     }
 }
 

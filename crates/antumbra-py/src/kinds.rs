@@ -11,9 +11,22 @@ use pyo3::prelude::*;
 use crate::errors;
 
 /// Numbers by name, as the dataclasses of Python give them.
-pub struct Fields(pub HashMap<String, Vec<f64>>);
+pub struct Fields(HashMap<String, Vec<f64>>);
+
+/// The fields that are places of the world.
+const PLACES: [&str; 8] = ["position", "center", "corner", "a", "b", "c", "p0", "p1"];
 
 impl Fields {
+    /// The numbers, places relative to `origin`.
+    pub fn about(mut fields: HashMap<String, Vec<f64>>, origin: [f64; 3]) -> Fields {
+        for name in PLACES {
+            for (c, o) in fields.get_mut(name).into_iter().flatten().zip(origin) {
+                *c -= o;
+            }
+        }
+        Fields(fields)
+    }
+
     fn numbers(&self, name: &str, n: usize) -> PyResult<&[f64]> {
         match self.0.get(name) {
             Some(v) if v.len() == n => Ok(v),

@@ -186,12 +186,10 @@ impl Picture {
         Vec<(String, Bound<'py, PyArrayDyn<f32>>)>,
         Vec<(String, String)>,
         (u32, u32, u64, u64, u32),
-        (f32, bool),
     )> {
         let r = &self.rendered;
         let counts = (r.passes_done, r.passes, r.segments, r.rays, r.hash);
-        let look = (self.look.exposure, self.look.tone == file::Tone::Filmic);
-        Ok((self.pixels(py)?, self.standard_error(py)?, self.aovs(py)?, self.metadata(), counts, look))
+        Ok((self.pixels(py)?, self.standard_error(py)?, self.aovs(py)?, self.metadata(), counts))
     }
 
     /// The picture that `parts` came from.
@@ -202,7 +200,6 @@ impl Picture {
         aovs: Vec<(String, PyReadonlyArrayDyn<'_, f32>)>,
         metadata: Vec<(String, String)>,
         counts: (u32, u32, u64, u64, u32),
-        look: (f32, bool),
     ) -> PyResult<Picture> {
         let [height, width, _] = *pixels.as_array().shape() else {
             return Err(errors::value("pixels: (H, W, 3)"));
@@ -226,9 +223,21 @@ impl Picture {
             rays,
             hash,
         };
-        let tone = if look.1 { file::Tone::Filmic } else { file::Tone::Linear };
-        Ok(Picture { rendered, look: Look { exposure: look.0, tone }, exr: ExrNumbers::Auto })
+        let settings = settings_of(&rendered.metadata);
+        Ok(Picture::new(rendered, &settings))
     }
+}
+
+/// The settings that a picture's metadata tells.
+fn settings_of(metadata: &[(String, String)]) -> Settings {
+    let mut settings = Settings::default();
+    for (name, value) in metadata {
+        if let Some(name) = name.strip_prefix("antumbra.") {
+            // What is no setting there (version, hashes) is left out.
+            let _ = settings.set(name, value);
+        }
+    }
+    settings
 }
 
 fn triples(array: &PyReadonlyArray3<'_, f32>) -> Vec<[f32; 3]> {

@@ -39,7 +39,7 @@ impl PyScene {
         reach: Option<PyReadonlyArray1<'_, f64>>,
     ) -> PyResult<Bound<'py, PyArray1<bool>>> {
         let scene = self.scene(py)?;
-        let batch = batch(&scene, &origins, &ends, reach.as_ref())?;
+        let batch = self.batch(&scene, &origins, &ends, reach.as_ref())?;
         let mut out = vec![false; batch.starts.len()];
         let run = out.len().max(1);
         in_runs(py, &mut out, run, |_, out, wrong, watch| {
@@ -58,7 +58,7 @@ impl PyScene {
         reach: PyReadonlyArray1<'_, f64>,
     ) -> PyResult<Hits> {
         let scene = self.scene(py)?;
-        let batch = batch(&scene, &origins, &directions, Some(&reach))?;
+        let batch = self.batch(&scene, &origins, &directions, Some(&reach))?;
         let mut out = vec![Ray::MISS; batch.starts.len()];
         in_runs(py, &mut out, RUN, |from, out, wrong, watch| {
             let mut hits = vec![RayHit::MISS; out.len()];
@@ -70,7 +70,7 @@ impl PyScene {
                 *out = batch.ray(from + i, hit);
             }
         })?;
-        Ok(Hits::new(scene, out))
+        Ok(Hits::new(scene, out, self.origin()))
     }
 
     /// Irradiance and its standard error, (N, 3) float32 each.
@@ -131,19 +131,19 @@ impl PyScene {
         normals: Option<Rows<'_>>,
         u: Rows<'_>,
         words: Words,
-    ) -> PyResult<(Table<'py>, Table<'py>, Column<'py>, Table<'py>, Column<'py>, Bound<'py, PyArray1<u32>>)>
+    ) -> PyResult<(Table<'py>, Doubles<'py>, Column<'py>, Table<'py>, Column<'py>, Bound<'py, PyArray1<u32>>)>
     {
         let scene = self.scene(py)?;
         let settings = settings::parse(&words)?;
-        let (queries, rows) = gather(&scene, &points, normals.as_ref())?;
-        let (n, u) = (points.view(&scene)?.len(), u.view());
+        let (queries, rows, n) = self.gather(&scene, &points, normals.as_ref())?;
+        let u = u.view();
         let numbers: Result<Vec<[f32; 3]>, String> =
             rows.iter().map(|i| unit(u.finite::<3>("u", *i)?, *i)).collect();
         let numbers = numbers.map_err(errors::value)?;
         let drawn = py.detach(|| query::sample_light(&scene, &queries, &numbers, &settings));
         Ok((
             table(py, &spread(&drawn.direction, &rows, n, [0.0; 3]))?,
-            table(py, &spread(&drawn.target, &rows, n, [0.0; 3]))?,
+            self.places(py, spread(&drawn.target, &rows, n, [0.0; 3]).into_iter())?,
             spread(&drawn.distance, &rows, n, 0.0).into_pyarray(py),
             table(py, &spread(&drawn.radiance, &rows, n, [0.0; 3]))?,
             spread(&drawn.pdf, &rows, n, 1.0).into_pyarray(py),
@@ -178,18 +178,57 @@ impl PyScene {
     /// Origins and unit directions of one viewing ray through each pixel's centre, (H·W, 3) float64 each.
     fn camera_rays<'py>(&self, py: Python<'py>, words: Words) -> PyResult<(Doubles<'py>, Doubles<'py>)> {
         let scene = self.scene(py)?;
-        let rows = render::camera_rays(&scene, &settings::parse(&words)?)
-            .map_err(|e| errors::scene(&e, self.file()))?;
-        let array = |row: fn(&(Vec3, Vec3)) -> Vec3| {
-            let doubles = rows.iter().flat_map(|r| row(r).to_array().map(f64::from)).collect();
-            let made = Array2::from_shape_vec((rows.len(), 3), doubles);
-            made.map(|a| a.into_pyarray(py)).map_err(|e| errors::value(e.to_string()))
-        };
-        Ok((array(|r| r.0)?, array(|r| r.1)?))
+        let mut settings = settings::parse(&words)?;
+        self.relate(&mut settings);
+        let rays = render::camera_rays(&scene, &settings).map_err(|e| errors::scene(&e, self.file()))?;
+        let directions = rays.iter().flat_map(|(_, d)| d.to_array().map(f64::from)).collect();
+        let directions = Array2::from_shape_vec((rays.len(), 3), directions);
+        let directions = directions.map_err(|e| errors::value(e.to_string()))?;
+        Ok((self.places(py, rays.iter().map(|(o, _)| o.to_array()))?, directions.into_pyarray(py)))
     }
 }
 
 impl PyScene {
+    /// Segments or rays of arrays, relative to the scene's origin.
+    fn batch<'a>(
+        &self,
+        scene: &Arc<Scene>,
+        origins: &'a Origins<'_>,
+        ends: &'a Rows<'_>,
+        reach: Option<&'a PyReadonlyArray1<'_, f64>>,
+    ) -> PyResult<Batch<'a>> {
+        let starts = origins.view(scene, self.origin())?;
+        let (name, ends) = match reach {
+            Some(_) => ("directions", ends.view()),
+            None => ("targets", ends.about(self.origin())),
+        };
+        columns(name, &ends, 3)?;
+        if let Starts::Points(points) = starts {
+            columns("origins", &points, 3)?;
+        }
+        Ok(Batch { starts, name, ends, reach: reach.map(|r| r.as_array()) })
+    }
+
+    /// The points that ask for light, each with its row; and how many rows there are.
+    fn gather(
+        &self,
+        scene: &Arc<Scene>,
+        points: &Origins<'_>,
+        normals: Option<&Rows<'_>>,
+    ) -> PyResult<(Vec<Query>, Vec<usize>, usize)> {
+        let starts = points.view(scene, self.origin())?;
+        let (queries, rows) = queries(starts, normals.map(Rows::view)).map_err(errors::value)?;
+        Ok((queries, rows, starts.len()))
+    }
+
+    /// World places of rows that are relative to the scene's origin, (N, 3) float64.
+    fn places<'py>(&self, py: Python<'py>, rows: impl Iterator<Item = [f32; 3]>) -> PyResult<Doubles<'py>> {
+        let origin = self.origin();
+        let numbers: Vec<f64> = rows.flat_map(|p| [0, 1, 2].map(|k| f64::from(p[k]) + origin[k])).collect();
+        let array = Array2::from_shape_vec((numbers.len() / 3, 3), numbers);
+        Ok(array.map_err(|e| errors::value(e.to_string()))?.into_pyarray(py))
+    }
+
     /// Estimates at every row; rows that met nothing get `elsewhere`, surely. Ctrl-C raises KeyboardInterrupt.
     fn estimate(
         &self,
@@ -204,8 +243,7 @@ impl PyScene {
         let around = crate::render::environment(py, &settings)?;
         let scene = self.scene(py)?;
         let lit = settings.lit(&scene, around.0).map_err(|e| errors::scene(&e, self.file()))?;
-        let (queries, rows) = gather(&scene, points, normals)?;
-        let n = points.view(&scene)?.len();
+        let (queries, rows, n) = self.gather(&scene, points, normals)?;
         let mut raised = None;
         let estimated = py.detach(|| ask(&lit, &queries, &settings, &mut || look(&mut raised)));
         match raised {
@@ -243,29 +281,6 @@ fn in_runs<T: Send>(
         Some(e) => Err(e),
         None => wrong.raise(),
     }
-}
-
-fn batch<'a>(
-    scene: &Arc<Scene>,
-    origins: &'a Origins<'_>,
-    ends: &'a Rows<'_>,
-    reach: Option<&'a PyReadonlyArray1<'_, f64>>,
-) -> PyResult<Batch<'a>> {
-    let (starts, ends) = (origins.view(scene)?, ends.view());
-    columns("ends", &ends, 3)?;
-    if let Starts::Points(points) = starts {
-        columns("origins", &points, 3)?;
-    }
-    let name = if reach.is_some() { "directions" } else { "targets" };
-    Ok(Batch { starts, name, ends, reach: reach.map(|r| r.as_array()) })
-}
-
-fn gather(
-    scene: &Arc<Scene>,
-    points: &Origins<'_>,
-    normals: Option<&Rows<'_>>,
-) -> PyResult<(Vec<Query>, Vec<usize>)> {
-    queries(points.view(scene)?, normals.map(Rows::view)).map_err(errors::value)
 }
 
 /// Values at their rows, `elsewhere` at all others.

@@ -51,6 +51,8 @@ pub struct Start {
 pub struct Receivers {
     scene: Arc<Scene>,
     rays: Arc<Vec<Ray>>,
+    /// What is added to a place of the scene to have it in the world.
+    origin: [f64; 3],
 }
 
 impl Receivers {
@@ -103,7 +105,11 @@ fn doubles(v: Vec3) -> [f64; 3] {
 impl Receivers {
     /// (N, 3) float64; NaN where the ray missed.
     fn positions<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        self.table(py, |i| (self.rays[i].prim != NO_PRIM).then(|| self.rays[i].position()))
+        let place = |ray: &Ray| {
+            let p = ray.position();
+            [0, 1, 2].map(|k| p[k] + self.origin[k])
+        };
+        self.table(py, |i| (self.rays[i].prim != NO_PRIM).then(|| place(&self.rays[i])))
     }
 
     /// Geometric unit normals on the side that was looked at, (N, 3) float64; NaN where the ray missed.
@@ -120,7 +126,7 @@ impl Receivers {
         let ray = |i: &u64| self.rays.get(*i as usize).copied();
         let rays: Option<Vec<Ray>> = numbers.as_array().iter().map(ray).collect();
         let rays = rays.ok_or_else(|| errors::value(format!("there are {} receivers", self.len())))?;
-        Ok(Receivers { scene: Arc::clone(&self.scene), rays: Arc::new(rays) })
+        Ok(Receivers { scene: Arc::clone(&self.scene), rays: Arc::new(rays), origin: self.origin })
     }
 }
 
@@ -132,8 +138,8 @@ pub struct Hits {
 
 impl Hits {
     /// What rays of a scene met.
-    pub fn new(scene: Arc<Scene>, rays: Vec<Ray>) -> Hits {
-        Hits { receivers: Receivers { scene, rays: Arc::new(rays) } }
+    pub fn new(scene: Arc<Scene>, rays: Vec<Ray>, origin: [f64; 3]) -> Hits {
+        Hits { receivers: Receivers { scene, rays: Arc::new(rays), origin } }
     }
 
     /// The number of the object and of the primitive in it.
@@ -172,6 +178,7 @@ impl Hits {
 
     /// The same points for further queries.
     fn receivers(&self) -> Receivers {
-        Receivers { scene: Arc::clone(&self.receivers.scene), rays: Arc::clone(&self.receivers.rays) }
+        let Receivers { scene, rays, origin } = &self.receivers;
+        Receivers { scene: Arc::clone(scene), rays: Arc::clone(rays), origin: *origin }
     }
 }

@@ -29,7 +29,8 @@ impl PyScene {
         words: Vec<(String, String)>,
         watch: Option<Py<PyAny>>,
     ) -> PyResult<(Option<Picture>, bool)> {
-        let settings = settings::parse(&words)?;
+        let mut settings = settings::parse(&words)?;
+        self.relate(&mut settings);
         let (around, told) = environment(py, &settings)?;
         let scene = self.scene(py)?;
         let mut watched = Watched::default();
@@ -49,7 +50,8 @@ impl PyScene {
 
     /// Width and height of the picture that these settings ask for.
     fn picture_size(&self, py: Python<'_>, words: Vec<(String, String)>) -> PyResult<[u32; 2]> {
-        let settings = settings::parse(&words)?;
+        let mut settings = settings::parse(&words)?;
+        self.relate(&mut settings);
         let scene = self.scene(py)?;
         render::picture_size(&scene, &settings).map_err(|e| errors::scene(&e, self.file()))
     }

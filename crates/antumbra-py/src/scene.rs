@@ -8,13 +8,14 @@ use antumbra::light::{Environment, Light};
 use antumbra::math::{DMat3, DVec3, Rgb, Transform};
 use antumbra::scene::{Level, Mesh, Message, Scene, SceneBuilder, SceneError, builtin};
 use antumbra::schedule;
+use antumbra::settings::Settings;
 use antumbra::texture::{Image, Texels};
 use antumbra::trace::Triangles;
 use antumbra_io::{ReadOptions, UpAxis, read_environment, read_path};
 use numpy::{PyReadonlyArray2, PyReadonlyArray3};
 use pyo3::prelude::*;
 
-use crate::arrays::{Rows, columns};
+use crate::arrays::{Rows, View, columns};
 use crate::errors;
 use crate::kinds::{self, Fields, Made};
 
@@ -32,13 +33,20 @@ pub struct PyScene {
     name: String,
     /// The file it came from, for errors; may be empty.
     file: String,
+    /// Place of the world that is 0 in the scene, so that places far from the world's 0 keep their digits.
+    origin: [f64; 3],
     state: Mutex<State>,
 }
 
 impl PyScene {
     fn of(builder: SceneBuilder, file: &str) -> PyScene {
         let name = builder.name.clone();
-        PyScene { name, file: file.into(), state: Mutex::new(State { builder: Some(builder), built: None }) }
+        PyScene {
+            name,
+            file: file.into(),
+            origin: [0.0; 3],
+            state: Mutex::new(State { builder: Some(builder), built: None }),
+        }
     }
 
     /// With the finished scene at once; `keep`: more may be added later.
@@ -79,6 +87,18 @@ impl PyScene {
         &self.file
     }
 
+    /// The place of the world that is 0 in the scene.
+    pub fn origin(&self) -> [f64; 3] {
+        self.origin
+    }
+
+    /// World places of the settings relative to the scene's origin.
+    pub fn relate(&self, settings: &mut Settings) {
+        for place in [&mut settings.eye, &mut settings.look_at].into_iter().flatten() {
+            *place = [0, 1, 2].map(|k| place[k] - self.origin[k]);
+        }
+    }
+
     /// Changes what it is made of.
     fn change<R>(&self, work: impl FnOnce(&mut SceneBuilder) -> PyResult<R>) -> PyResult<R> {
         self.with_state(|state| {
@@ -100,10 +120,11 @@ fn build(state: &mut State, keep: bool) -> Result<Arc<Scene>, SceneError> {
 
 #[pymethods]
 impl PyScene {
-    /// An empty scene.
+    /// An empty scene; `origin` is the place of the world that its numbers are kept relative to.
     #[new]
-    fn new(name: &str) -> PyScene {
-        PyScene::of(SceneBuilder::new(name), "")
+    #[pyo3(signature = (name, origin = [0.0; 3]))]
+    fn new(name: &str, origin: [f64; 3]) -> PyScene {
+        PyScene { origin, ..PyScene::of(SceneBuilder::new(name), "") }
     }
 
     /// A built-in scene with some of its parameters.
@@ -143,7 +164,7 @@ impl PyScene {
         fields: HashMap<String, Vec<f64>>,
         emission: Option<[f32; 3]>,
     ) -> PyResult<u32> {
-        let material = kinds::material(kind, &Fields(fields), emission)?;
+        let material = kinds::material(kind, &Fields::about(fields, [0.0; 3]), emission)?;
         self.change(|builder| Ok(builder.material(material)))
     }
 
@@ -159,10 +180,12 @@ impl PyScene {
         normals: Option<Rows<'_>>,
     ) -> PyResult<()> {
         let indices = faces.as_array().rows().into_iter().map(|f| [f[0], f[1], f[2]]).collect();
+        // A transform takes the mesh's own numbers into the world; without one they are places of the world.
+        let vertices = if transform.is_some() { vertices.view() } else { vertices.about(self.origin) };
         let triangles = Triangles { vertices: triples("vertices", &vertices)?, indices };
-        let normals = normals.map(|n| triples("normals", &n)).transpose()?;
+        let normals = normals.map(|n| triples("normals", &n.view())).transpose()?;
         let mesh = Mesh { name: name.into(), triangles, normals, ..Mesh::default() };
-        let transform = transform.map_or(Transform::IDENTITY, |m| matrix(&m));
+        let transform = transform.map_or(Transform::IDENTITY, |m| matrix(&m, self.origin));
         self.change(|builder| {
             let mesh = builder.mesh(mesh);
             builder.place(name, mesh, material, transform);
@@ -178,7 +201,7 @@ impl PyScene {
         fields: HashMap<String, Vec<f64>>,
         material: u32,
     ) -> PyResult<()> {
-        let made = kinds::shape(kind, &Fields(fields))?;
+        let made = kinds::shape(kind, &Fields::about(fields, self.origin))?;
         self.change(|builder| {
             match made {
                 Made::Shape(shape) => builder.shape(name, shape, material),
@@ -190,7 +213,7 @@ impl PyScene {
 
     /// Adds a light.
     fn add_light(&self, name: &str, kind: &str, fields: HashMap<String, Vec<f64>>) -> PyResult<()> {
-        let light = kinds::light(kind, &Fields(fields))?;
+        let light = kinds::light(kind, &Fields::about(fields, self.origin))?;
         if let Some(what) = light.fault() {
             return Err(errors::value(what));
         }
@@ -263,14 +286,16 @@ pub fn said(message: &Message) -> (&'static str, String, String) {
     (level, message.place.clone(), message.text.clone())
 }
 
-fn triples(name: &str, rows: &Rows<'_>) -> PyResult<Vec<[f32; 3]>> {
-    let view = rows.view();
-    columns(name, &view, 3)?;
+fn triples(name: &str, view: &View<'_>) -> PyResult<Vec<[f32; 3]>> {
+    columns(name, view, 3)?;
     Ok((0..view.len()).map(|i| view.row::<3>(i).map(|c| c as f32)).collect())
 }
 
-fn matrix(m: &PyReadonlyArray2<'_, f64>) -> Transform {
+fn matrix(m: &PyReadonlyArray2<'_, f64>, origin: [f64; 3]) -> Transform {
     let m = m.as_array();
     let column = |k: usize| DVec3::new(m[[0, k]], m[[1, k]], m[[2, k]]);
-    Transform { linear: DMat3::from_cols(column(0), column(1), column(2)), translation: column(3) }
+    Transform {
+        linear: DMat3::from_cols(column(0), column(1), column(2)),
+        translation: column(3) - DVec3::from(origin),
+    }
 }
