@@ -72,7 +72,7 @@ import antumbra as am
 scene = am.builtin("pillars")
 threading.Timer(6.0, os.kill, (os.getpid(), signal.SIGINT)).start()
 try:
-    scene.render(size=(64, 48), viewing_rays=100_000_000)
+    scene.render(size=(64, 48), viewing_rays=10_000_000)
 except KeyboardInterrupt as stopped:
     assert isinstance(stopped, am.RenderStopped)
     assert 0 < stopped.image.passes_done < stopped.image.passes
