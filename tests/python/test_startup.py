@@ -29,6 +29,7 @@ def verb(*arguments: str) -> str:
         verb("render", "--help"),
         verb("--version"),
         verb("info", "--list"),
+        verb("info", "corner"),
     ],
 )
 def test_nothing_heavy_is_imported_before_it_is_needed(code):

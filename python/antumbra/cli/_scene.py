@@ -3,16 +3,12 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import click
 
 from antumbra import _core
 from antumbra.cli import _say
 from antumbra.cli._command import Option
-
-if TYPE_CHECKING:
-    from antumbra.scene import Scene
 
 
 def options() -> list[Option]:
@@ -29,15 +25,13 @@ def options() -> list[Option]:
 
 def open_scene(
     scene: str, definitions: tuple[str, ...], up_axis: str | None, files_from: str | None
-) -> Scene:
+) -> _core.Scene:
     """Reads or builds it. A path that exists wins; a name with a dot or a slash is always a file."""
-    from antumbra.scene import Scene
-
     given = [_definition(text) for text in definitions]
     if Path(scene).exists() or "." in scene or "/" in scene:
         if given:
             raise click.UsageError(f"-D {definitions[0]}: {scene} has no parameters")
-        return Scene._of(_core.Scene.load(scene, up_axis, files_from, keep=False))
+        return _core.Scene.load(scene, up_axis, files_from, keep=False)
     for option, value in (("--up-axis", up_axis), ("--files-from", files_from)):
         if value is not None:
             raise click.UsageError(f'{option} is for files: "{scene}" is a built-in scene')
@@ -45,16 +39,14 @@ def open_scene(
     if scene not in known:
         hint = _say.nearest_hint(scene, known)
         raise click.UsageError(f'there is no scene "{scene}"{hint} ({", ".join(known)}; a file has a dot)')
-    return Scene._of(
-        _core.Scene.builtin(scene, [(name, _number(name, text)) for name, text in given], keep=False)
-    )
+    return _core.Scene.builtin(scene, [(name, _number(name, text)) for name, text in given], keep=False)
 
 
-def tell(scene: Scene, quiet: bool) -> None:
+def tell(scene: _core.Scene, quiet: bool) -> None:
     """Its notes and warnings, on standard error."""
     if not quiet:
         file = scene.name if "." in scene.name else ""
-        _say.messages(file, [(level, place, text) for level, place, text in scene.messages])
+        _say.messages(file, scene.messages())
 
 
 def stem(scene: str) -> str:

@@ -5,16 +5,14 @@ from __future__ import annotations
 import json as json_module
 import time
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
 from antumbra import _core
 from antumbra.cli import _say, _scene
 from antumbra.cli._command import Option, Verb
-
-if TYPE_CHECKING:
-    from antumbra.scene import Scene
+from antumbra.errors import Message
 
 ORDER = 2
 _COLUMN = 25
@@ -90,7 +88,7 @@ def _parameters(rows: list[tuple[str, float, float, float, str]]) -> list[str]:
     ]
 
 
-def _facts(scene: Scene, named: str, seconds: float) -> dict[str, Any]:
+def _facts(scene: _core.Scene, named: str, seconds: float) -> dict[str, Any]:
     path = Path(named)
     known = {name: parameters for name, _, parameters in _core.builtins()}
     return {
@@ -99,7 +97,7 @@ def _facts(scene: Scene, named: str, seconds: float) -> dict[str, Any]:
         "seconds": seconds,
         **scene.info(),
         "parameters": [list(row) for row in known.get(scene.name, [])] if not path.is_file() else [],
-        "messages": [message._asdict() for message in scene.messages],
+        "messages": [Message(*said)._asdict() for said in scene.messages()],
     }
 
 

@@ -16,7 +16,6 @@ from antumbra.errors import RenderStopped
 
 if TYPE_CHECKING:
     from antumbra.image import Image
-    from antumbra.scene import Scene
 
 ORDER = 1
 STOPPED = 130
@@ -33,6 +32,8 @@ def run(
     verbose: bool,
 ) -> int:
     """Render SCENE to an EXR or PNG picture."""
+    from antumbra.scene import Scene
+
     path = _output(output or f"{_scene.stem(scene)}.exr")
     _check(settings, path)
     opened = _scene.open_scene(scene, definitions, up_axis, files_from)
@@ -43,7 +44,7 @@ def run(
         print(head, file=sys.stderr, flush=True)
     try:
         with Bar(quiet) as bar:
-            image = opened.render(progress=bar.show, **settings)
+            image = Scene._of(opened).render(progress=bar.show, **settings)
     except RenderStopped as stopped:
         return _stopped(stopped.image, path)
     image.save(path)
@@ -95,13 +96,13 @@ def _check(given: dict[str, str], path: Path) -> None:
         raise click.UsageError(f"{problem}. Nothing was rendered.") from problem
 
 
-def _facts(scene: Scene) -> str:
-    return " · ".join(_say.some(n, word) for word, n in scene._core.counts())
+def _facts(scene: _core.Scene) -> str:
+    return " · ".join(_say.some(n, word) for word, n in scene.counts())
 
 
-def _plan(scene: Scene, given: dict[str, str]) -> str:
+def _plan(scene: _core.Scene, given: dict[str, str]) -> str:
     value = {name: given.get(name, setting.default) for name, setting in settings.table().items()}
-    width, height = scene._core.picture_size(list(given.items()))
+    width, height = scene.picture_size(list(given.items()))
     shadow = _say.some(int(value["shadow_rays"]), "shadow ray")
     return f"{width} × {height} · {value['estimator']}, {value['viewing_rays']} viewing × {shadow}, {value['sampler']}"
 
