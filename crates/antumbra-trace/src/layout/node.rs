@@ -38,7 +38,7 @@ impl Child {
 }
 
 /// Eight boxes and where they lead, 256 bytes in four cache lines. Boxes come padded (LAW §3); unused lanes hold an
-/// empty box. Children stand in the order in which an any-hit query visits them.
+/// empty box. Children stand in the order in which an any-hit query of a line without end visits them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C, align(64))]
 pub(crate) struct Node {
