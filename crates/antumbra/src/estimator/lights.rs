@@ -40,6 +40,7 @@ pub struct Lights {
     sampler: Option<LightSampler>,
     how: LightPoints,
     mistake: Mistake,
+    opaque: bool,
 }
 
 impl Lights {
@@ -55,7 +56,8 @@ impl Lights {
             LightChoice::Power => Some(Choose::Power),
         };
         let sampler = choose.map(|c| LightSampler::new(c, scene.lights(), scene.radius()));
-        Lights { sampler, how: options.light_points, mistake: options.mistake }
+        let Options { light_points: how, mistake, opaque, .. } = *options;
+        Lights { sampler, how, mistake, opaque }
     }
 
     /// Proposes N segments to the lights (or to each light), weighed against drawing the direction from `other`.
@@ -113,7 +115,7 @@ impl Lights {
         if let (Some(other), Density::SolidAngle(p)) = (other, s.density) {
             carried = carried * balance(n as f32 * prob * p, n as f32 * other(&s));
         }
-        let covered = scene.coverage(s.prim, at.p + s.wi * s.distance);
+        let covered = if self.opaque { 1.0 } else { scene.coverage(s.prim, at.p + s.wi * s.distance) };
         carried = carried * (self.mistaken(&s, n) * covered) * at.throughput;
         if !carried.is_black() && carried.is_finite() {
             out.segment(at, j, &s, plane_of(at), carried / n as f32);

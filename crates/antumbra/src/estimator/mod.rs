@@ -67,6 +67,8 @@ pub struct Options {
     pub radius: f32,
     /// Ambient occlusion: weight of an occluder.
     pub falloff: Falloff,
+    /// Alpha masks count as opaque.
+    pub opaque: bool,
     /// Wrong on purpose.
     pub mistake: Mistake,
 }

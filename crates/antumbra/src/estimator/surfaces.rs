@@ -13,12 +13,13 @@ use crate::scene::{Scene, SurfaceAreas};
 /// N points on all surfaces.
 pub struct Surfaces {
     areas: SurfaceAreas,
+    opaque: bool,
 }
 
 impl Surfaces {
     /// Measures the surfaces of a scene.
-    pub fn new(scene: &Scene, _options: Options) -> Surfaces {
-        Surfaces { areas: SurfaceAreas::of(scene) }
+    pub fn new(scene: &Scene, options: Options) -> Surfaces {
+        Surfaces { areas: SurfaceAreas::of(scene), opaque: options.opaque }
     }
 }
 
@@ -37,7 +38,8 @@ impl Estimator for Surfaces {
                 let distance = distance2.sqrt();
                 let wi: World = to / distance;
                 let facing = -q.n.dot(wi);
-                let radiance = scene.emitted_at(q.prim, wi, facing > 0.0) * scene.coverage(q.prim, q.p);
+                let covered = if self.opaque { 1.0 } else { scene.coverage(q.prim, q.p) };
+                let radiance = scene.emitted_at(q.prim, wi, facing > 0.0) * covered;
                 if radiance.is_black() || !at.sees_side(wi) || facing == 0.0 || distance2 == 0.0 {
                     continue;
                 }

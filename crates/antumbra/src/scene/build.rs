@@ -123,6 +123,10 @@ impl SceneBuilder {
                 if let Some(what) = shape_fault(shape) {
                     return Err(SceneError::new(place, what, ""));
                 }
+                let shines = self.materials[object.material as usize].emission.is_some();
+                if shines && matches!(shape, Shape::Cylinder { .. }) {
+                    self.say(Level::Warning, place.clone(), "a cylinder cannot shine: its light is left out");
+                }
                 if object.transform != Transform::IDENTITY {
                     return Err(SceneError::new(
                         place,

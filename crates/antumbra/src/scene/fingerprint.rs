@@ -2,7 +2,7 @@
 
 use antumbra_math::hash::fnv1a;
 
-use super::{Scene, SceneMesh};
+use super::{Body, Emits, Scene, SceneMesh};
 use crate::texture::{Image, Texels};
 
 impl Scene {
@@ -17,10 +17,30 @@ impl Scene {
             all.take(text(&(t.uv_set, t.wrap, t.nearest, t.map)));
             all.take(image_hash(&t.image));
         }
-        // Lights print short: pictures of the sky as their own hash.
-        self.lights.iter().for_each(|l| all.take(text(l)));
+        self.lights_hash(&mut all);
         self.cameras.iter().for_each(|c| all.take(text(c)));
         all.0
+    }
+
+    /// Which lights shine, and what those are that are no surface of an object. They print short: pictures of the sky as
+    /// their own hash.
+    fn lights_hash(&self, all: &mut Sum) {
+        let mut of_objects = vec![false; self.light_names.slots.len()];
+        for object in self.objects.iter() {
+            if let Emits::Each(first) = object.emits {
+                let count = match &object.body {
+                    Body::Mesh(m) => self.meshes[*m as usize].triangles.indices.len(),
+                    Body::Shape(_) => 1,
+                };
+                of_objects[first as usize..first as usize + count].fill(true);
+            }
+        }
+        for (slot, of_object) in self.light_names.slots.iter().zip(of_objects) {
+            all.take(u64::from(*slot));
+            if let (Some(light), false) = (self.lights.get(*slot as usize), of_object) {
+                all.take(fnv1a(format!("{light:?}").as_bytes()));
+            }
+        }
     }
 }
 

@@ -1,6 +1,6 @@
 //! What settings mean for the rooms below: estimator, sampler, passes, lights; and which contradict each other.
 
-use super::{SettingValue, Settings};
+use super::{Masks, SettingValue, Settings};
 use crate::estimator::{EstimatorKind, Falloff, Mistake, Options};
 use crate::light::Light;
 use crate::sampler::{AnySampler, PassPlan, SamplerKind, SamplerOptions};
@@ -18,6 +18,7 @@ impl Settings {
             roulette: self.roulette,
             radius: self.radius,
             falloff: self.falloff,
+            opaque: self.masks == Masks::Opaque,
             mistake: self.mistake,
         }
     }

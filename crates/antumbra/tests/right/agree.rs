@@ -17,9 +17,9 @@ use super::scenes::{parallelogram, receiver};
 
 use EstimatorKind::{Area, Hemisphere, Mis, Path, PathHemisphere, Surfaces};
 
-/// What others are compared with: every light asked, random numbers, four times the rays.
+/// What others are compared with: every light asked, random numbers, three times the rays.
 fn reference(scene: &Scene, estimator: EstimatorKind) -> antumbra::render::Picture {
-    let rays = size(1024, 1 << 15);
+    let rays = size(768, 1 << 15);
     let (sampler, lights) = (SamplerKind::Random, LightChoice::All);
     look(scene, &Settings { viewing_rays: rays, sampler, lights, seed: 77, ..small(estimator) })
 }
@@ -90,7 +90,7 @@ fn samplers_agree() {
     let reference = reference(&scene, Area);
     let filtered = look(
         &scene,
-        &Settings { viewing_rays: size(1024, 1 << 15), seed: 77, viewing: Viewing::Filter, ..small(Area) },
+        &Settings { viewing_rays: size(768, 1 << 15), seed: 77, viewing: Viewing::Filter, ..small(Area) },
     );
     let (all, through): (Vec<_>, Vec<_>) = ways.into_iter().partition(|w| w.viewing == Viewing::Filter);
     all_agree("samplers_agree, over the filter", &scene, &filtered, all.into_iter().map(named).collect());

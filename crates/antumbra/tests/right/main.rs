@@ -19,6 +19,7 @@ mod planes;
 mod rooms;
 mod scenes;
 mod sky;
+mod switches;
 mod table;
 mod teaching;
 mod variance;

@@ -139,3 +139,38 @@ fn every_shadow_ray_throws_its_own_dice() {
     // Independent dice: a quarter; the error of the error of 300 pixels is a percent.
     assert!((sixteen / one - 0.25).abs() < 0.02, "{one} with one shadow ray, {sixteen} with sixteen");
 }
+
+/// A light with holes shines only where it is: all direct estimators agree, and the holes show what is behind.
+/// α = 10⁻³.
+#[test]
+fn holes_of_a_light_do_not_shine() {
+    let corners = [[-0.5, 2.0, -0.5], [0.5, 2.0, -0.5], [0.5, 2.0, 0.5], [-0.5, 2.0, 0.5]].map(DVec3::from);
+    let open = antumbra::math::closed::polygon(&corners, DVec3::Y).abs();
+    let up = receiver([0.0; 3], [0.0, 1.0, 0.0]);
+    let mut judge = Judge::default();
+    for (name, alpha, texels, share) in
+        [("checker", MASK, [0, 255, 255, 0], 0.5), ("veil", Alpha::Blend, [51; 4], 0.2)]
+    {
+        let mut builder = SceneBuilder::new(name);
+        let image = Image::new(2, 2, Texels::Linear8(texels.map(|a| [0, 0, 0, a]).to_vec())).unwrap();
+        let texture = builder.texture(Texture { nearest: true, ..Texture::new(Arc::new(image)) });
+        let lamp = Material { color: Some(texture), alpha, ..Material::light(Rgb::WHITE) };
+        let lamp = builder.material(lamp);
+        // So fine a pattern that E over its texels is the share of the whole to 10⁻⁴ (64 periods, squared).
+        let uvs = [Some(vec![[0.0, 0.0], [64.0, 0.0], [64.0, 64.0], [0.0, 64.0]]), None];
+        let triangles = parallelogram(Vec3::new(-0.5, 2.0, -0.5), Vec3::X, Vec3::Z);
+        let mesh = builder.mesh(Mesh { triangles, uvs, ..Mesh::default() });
+        builder.place("lamp", mesh, lamp, Transform::IDENTITY);
+        let scene = builder.build().unwrap();
+        for kind in
+            [EstimatorKind::Area, EstimatorKind::Mis, EstimatorKind::Hemisphere, EstimatorKind::Surfaces]
+        {
+            let s = Settings { sampler: SamplerKind::Random, ..settings(kind, size(1 << 14, 1 << 18)) };
+            let found = irradiance(&scene, up, &s);
+            judge.add(trial(format!("{name} {kind:?}"), &found, share * open, 1e-4 * open));
+            let opaque = irradiance(&scene, up, &Settings { masks: Masks::Opaque, ..s });
+            judge.add(trial(format!("{name} {kind:?}, opaque"), &opaque, open, 1e-5));
+        }
+    }
+    judge.verdict("holes_of_a_light_do_not_shine", 1e-3);
+}

@@ -62,7 +62,7 @@ fn the_unshadowed_plane_is_the_picture_without_shadows() {
         let base = Settings { viewing, bounces: 1, aov, ..small(kind) };
         let off = look(&scene, &Settings { shadows: false, ..base.clone() });
         // The plane's own error is not known; it is that of light sampling without shadows, below that of any of them.
-        let seen = look(&scene, &Settings { seed: 5, viewing_rays: 1024, ..base });
+        let seen = look(&scene, &Settings { seed: 5, viewing_rays: 512, ..base });
         let n = f64::from(seen.width * seen.height);
         let sum =
             |name: &str| plane(&seen, name).iter().skip(1).step_by(3).map(|v| f64::from(*v)).sum::<f64>() / n;
