@@ -142,6 +142,12 @@ fn a_stopped_render_keeps_whole_passes() {
         let hash = seen.entry(picture.passes_done).or_insert(picture.hash);
         assert_eq!(*hash, picture.hash, "{} passes on {threads} threads", picture.passes_done);
     }
+    // And asked for by their number, the same bits again.
+    for (passes, hash) in seen {
+        let passes = Some(passes);
+        let s = Settings { passes, size: Some([50, 40]), viewing_rays: 64, bounces: 2, ..small(Path) };
+        assert_eq!(look(&scene, &s).hash, hash, "{passes:?} passes");
+    }
 }
 
 /// The hash of a scene changes with what is seen, textures and skies too, and with nothing else.

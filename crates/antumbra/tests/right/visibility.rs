@@ -63,19 +63,15 @@ fn convex(put: Put) -> Vec<(&'static str, SceneBuilder)> {
     let radius = (0.8 * put.scale) as f32;
     let center = at(0.0, 0.0, 0.0);
     let quad = super::scenes::parallelogram(Vec3::new(-0.5, 0.0, -0.5), Vec3::Z, Vec3::X);
-    let mut things = vec![
+    vec![
+        scene("square", &|b, m| b.object("", put.mesh(quad.clone()), m)),
         scene("ball of triangles", &|b, m| b.object("", put.mesh(ball(Vec3::ZERO, 0.9).0), m)),
         scene("sphere", &|b, m| b.shape("", Shape::Sphere { center, radius }, m)),
         scene("disk", &|b, m| {
             let normal = Vec3::new(0.3, 0.9, -0.2).to_array();
             b.shape("", Shape::Disk { center, normal, radius }, m);
         }),
-    ];
-    // Rounding bends a turned square far away: only what stays flat shades nothing.
-    if !put.turned {
-        things.push(scene("square", &|b, m| b.object("", put.mesh(quad.clone()), m)));
-    }
-    things
+    ]
 }
 
 /// Receivers where rays from around meet the thing from outside.
@@ -116,6 +112,11 @@ fn convex_things_do_not_shade_themselves() {
             let scene = builder.build().unwrap();
             let met = receivers(&scene, put, points, 5);
             assert!(met.len() as u32 > points / 8, "{name} {put:?}: {} receivers", met.len());
+            openness_is(&scene, &met, 1.0, name, put);
+            // Rounding bends a turned square: its halves may meet directions below 2⁻²² of the horizon (LAW §5).
+            if name == "square" && put.turned {
+                continue;
+            }
             let mut segments = SegmentBuffer::default();
             for at in &met {
                 for i in 0..rays {
@@ -129,7 +130,6 @@ fn convex_things_do_not_shade_themselves() {
             scene.visibility(false).occluded(segments.as_segments(), &mut blocked);
             assert_eq!(blocked.count(), 0, "{name} {put:?}: of {}", segments.len());
             asked += segments.len() as u64;
-            openness_is(&scene, &met, 1.0, name, put);
         }
     }
     println!("{asked} segments leave convex things, none is blocked");
