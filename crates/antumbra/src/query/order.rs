@@ -6,11 +6,11 @@
 use antumbra_trace::{Bits, SegmentBuffer, Segments, TO_POINT, World};
 
 /// Fewer rays than this find too few alike.
-const FEWEST: usize = 1 << 14;
+const FEWEST: usize = 1 << 15;
 /// Rays that are asked first, to see what one costs.
 const TRIED: usize = 64;
 /// Boxes that a ray visits on average, below which it costs less than its place in the order.
-const BOXES: u32 = 30;
+const BOXES: u32 = 20;
 /// Cells along each axis, as a power of two.
 const CELL_BITS: u32 = 4;
 /// Cells and the eight octants of directions.

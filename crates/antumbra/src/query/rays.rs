@@ -12,10 +12,10 @@ use crate::schedule::{self, Flow};
 
 /// Rays of a chunk: enough for the batch calls, small enough for the cache.
 const CHUNK: usize = 4096;
-/// Most rays of a chunk: their numbers still lie in the second cache of a core.
-const LARGEST: usize = 1 << 16;
+/// Most rays of a chunk: each of their components still lies in the second cache of a core.
+const LARGEST: usize = 1 << 18;
 /// Chunks into which a long question is cut at least.
-const SHARES: usize = 64;
+const SHARES: usize = 32;
 
 /// Writes the questions of a range into a buffer (it comes empty).
 pub type Fill<'a> = dyn Fn(Range<usize>, &mut SegmentBuffer) + Sync + 'a;
