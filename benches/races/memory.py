@@ -16,7 +16,7 @@ PROGRAM = "import sys, antumbra as am; am.builtin(sys.argv[1]).render(viewing_ra
 def main() -> None:
     """Each number of viewing rays in a process of its own."""
     asked = options(__doc__, rays=RAYS[-1])
-    size = (64, 48) if asked.quick else (256, 192)
+    size = (32, 24) if asked.quick else (96, 72)
     rows = []
     for name in ("pillars", "interior"):
         counts = [n for n in RAYS if n <= (64 if asked.quick else asked.rays)]

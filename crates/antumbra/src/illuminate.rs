@@ -5,7 +5,9 @@ use std::ops::Range;
 use antumbra_math::{Vec3, hash};
 use antumbra_trace::{Bits, Hits, NO_PRIM, Visibility};
 
-use crate::estimator::{AnyEstimator, Draws, Found, FoundLight, Proposals, propose_planes};
+use crate::estimator::{
+    Area, Carried, Draws, Estimator, Found, FoundLight, Options, Proposals, VisibleFraction,
+};
 use crate::film::{Film, Planes};
 use crate::light::sampler::Scratch as LightWeights;
 use crate::receiver::Receiver;
@@ -22,7 +24,7 @@ pub struct Job<'a> {
     /// Where light is asked for.
     pub sensor: &'a dyn Sensor,
     /// How it is estimated.
-    pub estimator: &'a AnyEstimator,
+    pub estimator: &'a dyn Estimator,
     /// Random numbers.
     pub sampler: AnySampler,
     /// Seed of all streams.
@@ -35,6 +37,8 @@ pub struct Job<'a> {
     pub passes: PassPlan,
     /// Planes beside the picture.
     pub planes: Planes,
+    /// What the planes about the lights ask.
+    pub light_planes: LightPlanes,
     /// How the scene is looked at.
     pub look: Look,
     /// What the sensor adds where it looks.
@@ -43,6 +47,25 @@ pub struct Job<'a> {
     pub shadows: bool,
     /// Teaching switch: off = what lies behind a light shadows it too.
     pub distance_test: bool,
+}
+
+/// The estimators behind the planes about the lights, which are there whatever estimator makes the picture.
+#[derive(Default)]
+pub struct LightPlanes {
+    /// `unshadowed-direct`: the area form with V = 1, by the very samples of `area`.
+    unshadowed: Option<Area>,
+    /// `visible-fraction`: mean V over the lights.
+    visible: Option<VisibleFraction>,
+}
+
+impl LightPlanes {
+    /// For those of the planes that are asked for.
+    pub fn new(planes: Planes, scene: &Scene, options: Options) -> LightPlanes {
+        LightPlanes {
+            unshadowed: planes.has(Planes::UNSHADOWED).then(|| Area::new(scene, options)),
+            visible: planes.has(Planes::VISIBLE_FRACTION).then(VisibleFraction::mean),
+        }
+    }
 }
 
 /// Rays that were asked for.
@@ -84,9 +107,7 @@ pub fn illuminate(job: &Job<'_>, tile: Tile, passes: Range<u32>, film: &mut Film
         b.receivers.clear();
         job.sensor.receivers(&looking, tile, pass, &mut b.scratch, film, &mut b.receivers);
         counts.rays += b.scratch.rays.len() as u64;
-        if job.planes.has(Planes::VISIBLE_FRACTION.union(Planes::UNSHADOWED)) {
-            light_planes(job, &draws, film, b, &mut counts);
-        }
+        light_planes(job, &draws, film, b, &mut counts);
         for _ in 0..job.bounces {
             if b.receivers.is_empty() {
                 break;
@@ -101,22 +122,30 @@ pub fn illuminate(job: &Job<'_>, tile: Tile, passes: Range<u32>, film: &mut Film
 /// Samples per receiver times receivers that are proposed at once: bounds what the buffers take.
 const BATCH: usize = 1 << 16;
 
+/// Runs of receivers that fit a batch.
+fn runs<'a>(receivers: &'a [Receiver], draws: &Draws<'_>) -> impl Iterator<Item = &'a [Receiver]> {
+    let samples = receivers.first().map_or(1, |at| draws.count(at)) as usize;
+    receivers.chunks((BATCH / samples).max(1))
+}
+
 /// One step of the loop: the receivers propose, visibility answers, the film sums, the rays make the next receivers.
 fn bounce(job: &Job<'_>, draws: &Draws<'_>, film: &mut Film, b: &mut Buffers, counts: &mut Counts) {
     let receivers = std::mem::take(&mut b.receivers);
-    let samples = draws.count(&receivers[0]) as usize;
     b.next.clear();
-    for run in receivers.chunks((BATCH / samples).max(1)) {
+    for run in runs(&receivers, draws) {
         b.proposals.clear();
         job.estimator.propose(job.scene, run, draws, &mut b.proposals);
-        gather(job, film, b, counts);
+        for carried in free(job, b, counts) {
+            film.add(Planes::BEAUTY, carried.cell, carried.light);
+            film.add(carried.plane, carried.cell, carried.light);
+        }
         follow(job, run, film, b, counts);
     }
     b.receivers = std::mem::replace(&mut b.next, receivers);
 }
 
-/// Adds what the free segments carry.
-fn gather(job: &Job<'_>, film: &mut Film, b: &mut Buffers, counts: &mut Counts) {
+/// What the free segments carry.
+fn free<'b>(job: &Job<'_>, b: &'b mut Buffers, counts: &mut Counts) -> impl Iterator<Item = &'b Carried> {
     let segments = b.proposals.segments.as_segments();
     counts.segments += segments.len() as u64;
     if job.shadows {
@@ -124,15 +153,30 @@ fn gather(job: &Job<'_>, film: &mut Film, b: &mut Buffers, counts: &mut Counts) 
     } else {
         b.blocked.reset(segments.len());
     }
-    for (i, carried) in b.proposals.carried.iter().enumerate() {
-        if b.blocked.get(i) {
-            continue;
+    let Buffers { proposals, blocked, .. } = b;
+    proposals.carried.iter().enumerate().filter(|(i, _)| !blocked.get(*i)).map(|(_, carried)| carried)
+}
+
+/// The planes about the lights.
+fn light_planes(job: &Job<'_>, draws: &Draws<'_>, film: &mut Film, b: &mut Buffers, counts: &mut Counts) {
+    let receivers = std::mem::take(&mut b.receivers);
+    for run in runs(&receivers, draws) {
+        if let Some(area) = &job.light_planes.unshadowed {
+            b.proposals.clear();
+            area.propose(job.scene, run, draws, &mut b.proposals);
+            for carried in &b.proposals.carried {
+                film.add(Planes::UNSHADOWED, carried.cell, carried.light);
+            }
         }
-        if carried.plane != Planes::VISIBLE_FRACTION {
-            film.add(Planes::BEAUTY, carried.cell, carried.light);
+        if let Some(visible) = &job.light_planes.visible {
+            b.proposals.clear();
+            visible.propose(job.scene, run, draws, &mut b.proposals);
+            for carried in free(job, b, counts) {
+                film.add(Planes::VISIBLE_FRACTION, carried.cell, carried.light);
+            }
         }
-        film.add(carried.plane, carried.cell, carried.light);
     }
+    b.receivers = receivers;
 }
 
 /// Follows the rays: adds the light they find, makes receivers of the surfaces where they go on.
@@ -170,7 +214,7 @@ fn follow(job: &Job<'_>, receivers: &[Receiver], film: &mut Film, b: &mut Buffer
         if let (Some((light, radiance)), true) = (met.emitted, job.shadows) {
             find(light, radiance);
         }
-        if onward.goes_on > 0.0 {
+        if let Some(survival) = onward.goes_on {
             b.next.push(Receiver {
                 cell: from.cell,
                 stream: if onward.branch == 0 {
@@ -179,18 +223,10 @@ fn follow(job: &Job<'_>, receivers: &[Receiver], film: &mut Film, b: &mut Buffer
                     hash::hash2(from.stream, onward.branch)
                 },
                 index: from.index,
-                throughput: onward.throughput * onward.goes_on,
+                throughput: onward.throughput * survival,
                 bounce: from.bounce + 1,
                 ..met.receiver
             });
         }
     }
-}
-
-/// The planes about the lights, by segments of their own.
-fn light_planes(job: &Job<'_>, draws: &Draws<'_>, film: &mut Film, b: &mut Buffers, counts: &mut Counts) {
-    b.proposals.clear();
-    let unshadowed = |cell, light| film.add(Planes::UNSHADOWED, cell, light);
-    propose_planes(job.scene, &b.receivers, draws, job.planes, unshadowed, &mut b.proposals);
-    gather(job, film, b, counts);
 }

@@ -2,9 +2,9 @@
 
 use antumbra_math::{DVec3, Rgb, Vec3};
 
-use crate::estimator::{AnyEstimator, EstimatorKind};
+use crate::estimator::EstimatorKind;
 use crate::film::{Film, Planes};
-use crate::illuminate::Job;
+use crate::illuminate::{Job, LightPlanes};
 use crate::light::Light;
 use crate::scene::{Camera, Level, Message, Projection, Scene, SceneError};
 use crate::schedule::{self, Finished, Flow, Progress};
@@ -56,7 +56,7 @@ pub fn render(
     let camera = camera(&scene, settings, &mut messages)?;
     let view = view(&camera, settings)?;
     let sensor = CameraSensor::new(&camera, view);
-    let estimator = AnyEstimator::new(settings.estimator, &scene, settings.options());
+    let estimator = settings.estimator.make(&scene, settings.options());
     let clay = settings.clay.is_some() && settings.estimator == EstimatorKind::Area;
     for text in estimator.blind_to(&scene).into_iter().filter(|_| !clay) {
         messages.push(Message { level: Level::Warning, place: String::new(), text });
@@ -73,13 +73,14 @@ pub fn render(
         scene: &scene,
         visibility: &visibility,
         sensor: &sensor,
-        estimator: &estimator,
+        estimator: estimator.as_ref(),
         sampler: settings.sampler(),
         seed: settings.seed,
         shadow_rays: settings.shadow_rays,
         bounces: bounces(settings),
         passes: settings.passes_of(settings.viewing_rays),
         planes: settings.aov,
+        light_planes: LightPlanes::new(settings.aov, &scene, settings.options()),
         look: settings.look(),
         seen: seen(settings),
         shadows: settings.shadows,

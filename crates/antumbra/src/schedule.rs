@@ -12,7 +12,7 @@ use crate::sampler::PassPlan;
 use crate::scene::{Scene, SceneBuilder, SceneError};
 use crate::sensor::Tile;
 
-/// The longest round: how much a person may lose by stopping.
+/// The longest round: how much a person may lose by stopping. The first is a single pass: something to keep, soon.
 const LONGEST_ROUND: u32 = 8;
 
 /// How far a render is.
@@ -55,6 +55,17 @@ struct Slot {
     done: bool,
 }
 
+impl Slot {
+    /// Takes the block of a finished round.
+    fn settle(&mut self, ends_replicate: bool) {
+        self.film.merge(&self.block);
+        self.done = false;
+        if ends_replicate {
+            self.film.close_replicate();
+        }
+    }
+}
+
 /// Runs a job on `threads` threads (0 = all cores); `watch` is called about twenty times a second on this thread.
 pub fn run(job: &Job<'_>, threads: u32, watch: &mut dyn FnMut(Progress) -> Flow) -> Finished {
     let tile_slot = |tile: Tile| {
@@ -80,13 +91,8 @@ pub fn run(job: &Job<'_>, threads: u32, watch: &mut dyn FnMut(Progress) -> Flow)
             if slots.iter().any(|slot| !slot.done) {
                 break;
             }
-            for slot in &mut slots {
-                slot.film.merge(&slot.block);
-                slot.done = false;
-                if round.ends_replicate {
-                    slot.film.close_replicate();
-                }
-            }
+            let settle = |slot: &mut Slot, _: &mut ()| slot.settle(round.ends_replicate);
+            pool.each(slots.iter_mut().collect(), &settle, &mut || {});
             passes_done = round.passes.end;
         }
     });
@@ -118,9 +124,12 @@ fn rounds(plan: &PassPlan) -> Vec<Round> {
     let mut rounds = Vec::new();
     for r in 0..plan.replicates {
         let (begin, end) = (plan.begin(r), plan.begin(r + 1));
-        for from in (begin..end.min(plan.until)).step_by(LONGEST_ROUND as usize) {
-            let to = (from + LONGEST_ROUND).min(end).min(plan.until);
+        let mut from = begin;
+        while from < end.min(plan.until) {
+            let longest = if from == 0 { 1 } else { LONGEST_ROUND };
+            let to = (from + longest).min(end).min(plan.until);
             rounds.push(Round { passes: from..to, ends_replicate: to == end });
+            from = to;
         }
     }
     rounds

@@ -1,6 +1,6 @@
 //! Lambert's reflection: f_r = ρ/π, the same in every direction.
 
-use antumbra_math::{Local, Rgb, Vec3, real};
+use antumbra_math::{Local, Rgb, real, warp};
 
 use super::{BsdfKind, BsdfSample};
 use crate::density::Density;
@@ -27,7 +27,7 @@ impl BsdfKind for Diffuse {
         if wo.cos() <= 0.0 {
             return None;
         }
-        let wi = cosine([u[0], u[1]]);
+        let wi = warp::cosine_hemisphere([u[0], u[1]]);
         let z = wi.cos();
         if z <= 0.0 {
             return None;
@@ -47,12 +47,4 @@ impl BsdfKind for Diffuse {
     fn examples() -> Vec<Diffuse> {
         vec![Diffuse { albedo: Rgb::grey(0.5) }, Diffuse { albedo: Rgb::WHITE }]
     }
-}
-
-/// A direction with p(ω) = cos θ / π (Malley: the disk lifted onto the hemisphere).
-#[inline]
-pub(super) fn cosine(u: [f32; 2]) -> Local {
-    let r = u[0].sqrt();
-    let phi = 2.0 * real::PI * u[1];
-    Local(Vec3::new(r * real::cosf(phi), r * real::sinf(phi), (1.0 - u[0]).sqrt()))
 }

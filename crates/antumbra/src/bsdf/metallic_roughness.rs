@@ -6,11 +6,11 @@
 //! 2017 use the form for coats). glTF's own weight 1−F(ω_o·h) would give out more light than came in at grazing angles;
 //! this one is reciprocal and exact: albedo(μ) = E + ρ(1−E). Light that bounces between facets is lost.
 
-use antumbra_math::{Local, Rgb, real};
+use antumbra_math::{Local, Rgb, real, warp};
 
 use super::ggx::{Ggx, MIN_ALPHA, Pair};
 use super::ggx_albedo::{DIELECTRIC_F0, Row};
-use super::{BsdfKind, BsdfSample, diffuse};
+use super::{BsdfKind, BsdfSample};
 use crate::density::Density;
 
 /// Base colour, metallic and roughness of glTF 2.0.
@@ -100,7 +100,7 @@ impl BsdfKind for MetallicRoughness {
         }
         let lobes = self.lobes(wo.cos());
         let uv = [u[0], u[1]];
-        let wi = if u[2] < lobes.specular { self.ggx.sample(wo, uv) } else { diffuse::cosine(uv) };
+        let wi = if u[2] < lobes.specular { self.ggx.sample(wo, uv) } else { warp::cosine_hemisphere(uv) };
         if wi.cos() <= 0.0 {
             return None;
         }

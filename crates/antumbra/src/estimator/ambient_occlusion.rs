@@ -3,7 +3,7 @@
 //! An occluder at distance t within R weighs none: 1, linear: 1 − t/R, quadratic: (1 − t/R)². That weight is the chance
 //! that a random ray length is above t, so any hit is enough and no ray asks for the closest one.
 
-use antumbra_math::{Frame, Local, Rgb, real};
+use antumbra_math::{Frame, Rgb, warp};
 
 use super::{Draws, Estimator, Nth, Options, Proposals};
 use crate::receiver::Receiver;
@@ -54,11 +54,8 @@ impl Estimator for AmbientOcclusion {
             let n = u.count(at);
             let frame = Frame::about(at.ng);
             for nth in Nth::of(n) {
-                let [u0, u1] = u.pair(at, Use::Direction, nth);
                 // p(ω) = cos θ / π: the cosine and 1/π cancel.
-                let (r, phi) = (u0.sqrt(), 2.0 * real::PI * u1);
-                let local = Local::new(r * real::cosf(phi), r * real::sinf(phi), (1.0 - u0).sqrt());
-                let wi = frame.to_world(local);
+                let wi = frame.to_world(warp::cosine_hemisphere(u.pair(at, Use::Direction, nth)));
                 let length = match self.falloff {
                     Falloff::None => self.radius,
                     falloff => falloff.length(self.radius, u.one(at, Use::Lobe, nth)),

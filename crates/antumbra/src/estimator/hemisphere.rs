@@ -1,6 +1,6 @@
 //! The hemisphere form: L = ∫ f_r L_e(ω) cos θ dω, directions drawn at the receiver. Direct light.
 
-use antumbra_math::{Local, Rgb, World, real};
+use antumbra_math::{Local, Rgb, World, real, warp};
 
 use super::{Draws, Estimator, Found, Mistake, Nth, Onward, Options, Proposals};
 use crate::density::Density;
@@ -37,7 +37,8 @@ impl Directions {
             let s = at.bsdf.sample(at.wo, [u0, u1, u.one(at, Use::Lobe, nth)])?;
             Direction { wi: at.to_world(s.wi), throughput: s.throughput, density: s.density }
         } else {
-            let local = self.hemisphere([u0, u1]);
+            let map = if self == Directions::Uniform { warp::hemisphere } else { warp::cosine_hemisphere };
+            let local = map([u0, u1]);
             let p = self.pdf(at, local);
             if p <= 0.0 {
                 return None;
@@ -56,13 +57,6 @@ impl Directions {
             Directions::Cosine => wi.cos().max(0.0) * real::INV_PI,
             Directions::Uniform => 0.5 * real::INV_PI,
         }
-    }
-
-    fn hemisphere(self, u: [f32; 2]) -> Local {
-        let z = if self == Directions::Uniform { 1.0 - u[0] } else { (1.0 - u[0]).sqrt() };
-        let r = real::safe_sqrt(1.0 - z * z);
-        let phi = 2.0 * real::PI * u[1];
-        Local::new(r * real::cosf(phi), r * real::sinf(phi), z)
     }
 }
 
@@ -93,7 +87,7 @@ impl Estimator for Hemisphere {
                     branch: nth.j,
                     density: d.density,
                     found: Found::All,
-                    goes_on: 0.0,
+                    goes_on: None,
                 };
                 out.ray(at, d.wi, onward);
             }

@@ -1,12 +1,9 @@
 //! Sampling the lights: which one, which point of it, and what a segment to it would carry.
 
-use antumbra_math::Rgb;
-
 use super::proposals::plane_of;
 use super::{Draws, FoundLight, Mistake, Nth, Options, Proposals};
 use crate::bsdf::Bsdf;
 use crate::density::Density;
-use crate::film::Planes;
 use crate::light::sampler::{Choose, LightSampler, Scratch};
 use crate::light::{End, LightId, LightPoints, LightSample};
 use crate::receiver::Receiver;
@@ -159,47 +156,6 @@ impl Lights {
 #[inline]
 pub fn balance(mine: f32, other: f32) -> f32 {
     if mine <= 0.0 { 0.0 } else { 1.0 / (1.0 + other / mine) }
-}
-
-/// Segments for the planes `visible-fraction` (mean V, uniform area or solid angle) and `unshadowed-direct`: one to
-/// every light up to 16, else to one of them.
-pub fn propose_planes(
-    scene: &Scene,
-    at: &[Receiver],
-    u: &Draws<'_>,
-    planes: Planes,
-    mut unshadowed: impl FnMut(u32, Rgb),
-    out: &mut Proposals,
-) {
-    const EACH: u32 = 16;
-    let lights = scene.lights().len() as u32;
-    let chosen = lights.min(EACH);
-    for at in at.iter().filter(|at| at.bounce == 0) {
-        for k in 0..chosen {
-            let light = if lights <= EACH {
-                k
-            } else {
-                ((u.pair_for(k, at, Use::LightChoice, Nth::ONLY)[0] * lights as f32) as u32).min(lights - 1)
-            };
-            let light = &scene.lights()[light as usize];
-            let point = u.pair_for(k, at, Use::LightPoint, Nth::ONLY);
-            if planes.has(Planes::VISIBLE_FRACTION)
-                && let Some(s) = light.sample(at, point, LightPoints::Area)
-                && at.sees_side(s.wi)
-            {
-                out.segment(at, 0, &s, Planes::VISIBLE_FRACTION, Rgb::grey(1.0 / chosen as f32));
-            }
-            if planes.has(Planes::UNSHADOWED)
-                && let Some(s) = light.sample(at, point, LightPoints::SolidAngle)
-                && at.sees_side(s.wi)
-            {
-                let wi = at.to_local(s.wi);
-                let share = lights as f32 / chosen as f32;
-                let f = at.bsdf.eval(at.wo, wi);
-                unshadowed(at.cell, f * s.radiance * (wi.cos() * share / s.density.weight()));
-            }
-        }
-    }
 }
 
 /// Light sampling can see this reflection.

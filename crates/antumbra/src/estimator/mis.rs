@@ -29,7 +29,7 @@ impl Mis {
         (from, at): (usize, &Receiver),
         u: &Draws<'_>,
         directions: u32,
-        goes_on: f32,
+        goes_on: Option<f32>,
         out: &mut Proposals,
     ) {
         let n = u.count(at) as f32;
@@ -65,7 +65,7 @@ impl Mis {
 impl Estimator for Mis {
     fn propose(&self, scene: &Scene, at: &[Receiver], u: &Draws<'_>, out: &mut Proposals) {
         for (from, at) in at.iter().enumerate() {
-            self.propose_at(scene, (from, at), u, u.count(at), 0.0, out);
+            self.propose_at(scene, (from, at), u, u.count(at), None, out);
         }
     }
 

@@ -11,16 +11,18 @@ mod path;
 mod path_hemisphere;
 mod proposals;
 mod surfaces;
+mod visible_fraction;
 
 pub use ambient_occlusion::{AmbientOcclusion, Falloff};
 pub use area::Area;
 pub use hemisphere::{Directions, Hemisphere};
-pub use lights::{LightChoice, Lights, propose_planes};
+pub use lights::{LightChoice, Lights};
 pub use mis::Mis;
 pub use path::Path;
 pub use path_hemisphere::PathHemisphere;
-pub use proposals::{Found, Onward, Proposals};
+pub use proposals::{Carried, Found, Onward, Proposals};
 pub use surfaces::Surfaces;
+pub use visible_fraction::VisibleFraction;
 
 use antumbra_math::{World, hash};
 
@@ -167,7 +169,7 @@ pub trait Estimator: Sync {
     }
 }
 
-/// One enum of all kinds and its delegation.
+/// One enum of all kinds that a person can name.
 macro_rules! kinds {
     ($($kind:ident),* $(,)?) => {
         /// The words for the kinds (`--estimator`).
@@ -175,31 +177,14 @@ macro_rules! kinds {
         pub enum EstimatorKind {
             $(#[doc = concat!("See [`", stringify!($kind), "`].")] $kind),*
         }
-        /// An estimator, one of the closed list of kinds.
-        pub enum AnyEstimator {
-            $(#[doc = concat!("See [`", stringify!($kind), "`].")] $kind($kind)),*
-        }
-        impl AnyEstimator {
-            /// An estimator of this kind for a scene.
-            pub fn new(kind: EstimatorKind, scene: &Scene, options: Options) -> AnyEstimator {
-                match kind { $(EstimatorKind::$kind => AnyEstimator::$kind($kind::new(scene, options))),* }
-            }
-            /// See [`Estimator::propose`].
-            pub fn propose(&self, scene: &Scene, at: &[Receiver], u: &Draws<'_>, out: &mut Proposals) {
-                match self { $(AnyEstimator::$kind(e) => e.propose(scene, at, u, out)),* }
-            }
-            /// See [`Estimator::found_weight`].
-            pub fn found_weight(&self, scene: &Scene, found: &FoundLight<'_>, scratch: &mut Scratch) -> f32 {
-                match self { $(AnyEstimator::$kind(e) => e.found_weight(scene, found, scratch)),* }
-            }
-            /// See [`Estimator::blind_to`].
-            pub fn blind_to(&self, scene: &Scene) -> Vec<String> {
-                match self { $(AnyEstimator::$kind(e) => e.blind_to(scene)),* }
-            }
-        }
         impl EstimatorKind {
             /// All kinds.
             pub const ALL: &'static [EstimatorKind] = &[$(EstimatorKind::$kind),*];
+
+            /// An estimator of this kind for a scene. One call serves a batch of receivers.
+            pub fn make(self, scene: &Scene, options: Options) -> Box<dyn Estimator> {
+                match self { $(EstimatorKind::$kind => Box::new($kind::new(scene, options))),* }
+            }
         }
     };
 }

@@ -30,16 +30,16 @@ impl Path {
     }
 }
 
-/// 1/q if the path goes on, with probability q = what is left of its light; 0 if it ends.
-pub(super) fn survive(at: &Receiver, u: &Draws<'_>, bounces: u32, roulette: bool) -> f32 {
+/// 1/q if the path goes on, with probability q = what is left of its light; `None` if it ends.
+pub(super) fn survive(at: &Receiver, u: &Draws<'_>, bounces: u32, roulette: bool) -> Option<f32> {
     if at.bounce + 1 >= bounces {
-        return 0.0;
+        return None;
     }
     if !roulette || at.bounce < SURE_BOUNCES {
-        return 1.0;
+        return Some(1.0);
     }
     let q = (at.throughput * at.bsdf.albedo()).max().min(LARGEST);
-    if u.one(at, Use::Roulette, Nth::ONLY) < q { 1.0 / q } else { 0.0 }
+    (u.one(at, Use::Roulette, Nth::ONLY) < q).then_some(1.0 / q)
 }
 
 impl Estimator for Path {

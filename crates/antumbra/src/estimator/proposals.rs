@@ -42,8 +42,8 @@ pub struct Onward {
     pub density: Density,
     /// What light that it finds counts for.
     pub found: Found,
-    /// The surface that it meets is a receiver again, its throughput times this (1/q of the roulette); 0 = it ends.
-    pub goes_on: f32,
+    /// The surface that it meets is a receiver again, its throughput times this (1/q of the roulette); `None`: it ends.
+    pub goes_on: Option<f32>,
 }
 
 /// A batch of proposals, filled and cleared without giving memory back.

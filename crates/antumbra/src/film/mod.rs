@@ -36,7 +36,7 @@ struct Replicates {
 impl Film {
     /// An empty block of `cells` cells.
     pub fn block(cells: usize, planes: Planes) -> Film {
-        let planes = planes.union(Planes::BEAUTY);
+        let planes = planes.summed().union(Planes::BEAUTY);
         Film { planes, sums: vec![[0.0; 3]; cells * planes.count()], samples: 0, cells, replicates: None }
     }
 

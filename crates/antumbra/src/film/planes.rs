@@ -60,7 +60,12 @@ impl Planes {
         self.0 & other.0 != 0
     }
 
-    /// How many planes hold sums.
+    /// Those of the set that hold sums: the number of samples and the error are known without.
+    pub const fn summed(self) -> Planes {
+        Planes(self.0 & !(Planes::SAMPLE_COUNT.0 | Planes::STANDARD_ERROR.0))
+    }
+
+    /// How many planes are in.
     pub fn count(self) -> usize {
         self.0.count_ones() as usize
     }

@@ -1,14 +1,11 @@
 //! How much light arrives at points, how open they are, what part of a light they see.
 
-use antumbra_math::{Rgb, Vec3};
-use antumbra_trace::{Bits, Visibility};
+use antumbra_math::Vec3;
 
-use crate::estimator::{AnyEstimator, EstimatorKind, LightChoice, Proposals};
-use crate::film::{Film, Planes};
-use crate::illuminate::Job;
-use crate::light::{LightId, LightPoints};
-use crate::receiver::Receiver;
-use crate::sampler::{Use, stream};
+use crate::estimator::{Estimator, EstimatorKind, LightChoice, Options, VisibleFraction};
+use crate::film::Planes;
+use crate::illuminate::{Job, LightPlanes};
+use crate::light::LightId;
 use crate::scene::Scene;
 use crate::schedule::{self, Flow, Progress};
 use crate::sensor::{PointSensor, Query, Seen};
@@ -33,7 +30,7 @@ pub fn irradiance(
     watch: &mut dyn FnMut(Progress) -> Flow,
 ) -> Estimated {
     // The points are white (ρ = 1): L = E/π.
-    estimate(scene, queries, settings, Seen::Light, std::f32::consts::PI, watch)
+    named(settings.estimator, scene, queries, settings, Seen::Light, watch).scaled(std::f32::consts::PI)
 }
 
 /// (1/π) ∫ V cos θ dω at each point; 1 = open.
@@ -43,49 +40,7 @@ pub fn ambient_occlusion(
     settings: &Settings,
     watch: &mut dyn FnMut(Progress) -> Flow,
 ) -> Estimated {
-    let settings = Settings { estimator: EstimatorKind::AmbientOcclusion, ..settings.clone() };
-    estimate(scene, queries, &settings, Seen::Open, 1.0, watch)
-}
-
-fn estimate(
-    scene: &Scene,
-    queries: &[Query],
-    settings: &Settings,
-    seen: Seen,
-    unit: f32,
-    watch: &mut dyn FnMut(Progress) -> Flow,
-) -> Estimated {
-    let sensor = PointSensor { queries };
-    let one_ray = crate::estimator::Options { shadow_rays: 1, ..settings.options() };
-    let estimator = AnyEstimator::new(settings.estimator, scene, one_ray);
-    let visibility = scene.visibility(settings.masks == Masks::Opaque);
-    let paths = matches!(settings.estimator, EstimatorKind::Path | EstimatorKind::PathHemisphere);
-    let job = Job {
-        scene,
-        visibility: &visibility,
-        sensor: &sensor,
-        estimator: &estimator,
-        sampler: settings.sampler(),
-        seed: settings.seed,
-        shadow_rays: 1,
-        bounces: if paths { settings.bounces } else { 1 },
-        passes: settings.passes_of(settings.shadow_rays),
-        planes: Planes::NONE,
-        look: settings.look(),
-        seen,
-        shadows: settings.shadows,
-        distance_test: settings.distance_test,
-    };
-    let finished = schedule::run(&job, settings.threads, watch);
-    let mut out = Estimated { rays_done: finished.passes_done, ..Estimated::default() };
-    for (_, film) in &finished.tiles {
-        for cell in 0..film.cells() {
-            let scaled = |v: [f64; 3]| v.map(|c| (c * f64::from(unit)) as f32);
-            out.values.push(scaled(film.mean(Planes::BEAUTY, cell)));
-            out.standard_error.push(film.standard_error(cell).map_or([f32::NAN; 3], scaled));
-        }
-    }
-    out
+    named(EstimatorKind::AmbientOcclusion, scene, queries, settings, Seen::Open, watch)
 }
 
 /// Mean V of one light from each point: uniform area for flat lights, solid angle for sphere, sun and sky. A light
@@ -95,68 +50,70 @@ pub fn visible_fraction(
     queries: &[Query],
     light: LightId,
     settings: &Settings,
-    watch: &mut dyn FnMut(u64) -> Flow,
+    watch: &mut dyn FnMut(Progress) -> Flow,
 ) -> Estimated {
-    const CHUNK: usize = 64;
-    let visibility = scene.visibility(settings.masks == Masks::Opaque);
-    let mut seen = vec![[f32::NAN; 2]; queries.len()];
-    let work = |from: usize, out: &mut [[f32; 2]], buffers: &mut (Proposals, Bits)| {
-        let film = light_seen(
-            scene,
-            &visibility,
-            (from, &queries[from..from + out.len()]),
-            light,
-            settings,
-            buffers,
-        );
-        for (cell, out) in out.iter_mut().enumerate() {
-            let error = film.standard_error(cell).map_or(f32::NAN, |e| e[0] as f32);
-            *out = [film.mean(Planes::BEAUTY, cell)[0] as f32, error];
-        }
-    };
-    schedule::chunks(&mut seen, CHUNK, settings.threads, work, watch);
-    Estimated {
-        values: seen.iter().map(|s| [s[0]; 3]).collect(),
-        standard_error: seen.iter().map(|s| [s[1]; 3]).collect(),
-        rays_done: settings.shadow_rays,
-    }
+    estimate(&VisibleFraction::of(light), 1, scene, queries, settings, Seen::Open, watch)
 }
 
-/// All samples of a run of points (number of the first, points) toward one light.
-fn light_seen(
+fn named(
+    kind: EstimatorKind,
     scene: &Scene,
-    visibility: &dyn Visibility,
-    (from, queries): (usize, &[Query]),
-    light: LightId,
+    queries: &[Query],
     settings: &Settings,
-    (proposals, blocked): &mut (Proposals, Bits),
-) -> Film {
-    let (plan, sampler) = (settings.passes_of(settings.shadow_rays), settings.sampler());
-    let mut film = Film::tile(queries.len(), Planes::NONE);
-    for pass in 0..plan.count {
-        let (replicate, index, of) = plan.locate(pass);
-        proposals.clear();
-        for (query, cell) in queries.iter().zip(0..) {
-            let stream = stream(settings.seed, from as u32 + cell, replicate);
-            let at = Receiver { cell, stream, index, ..query.receiver(1.0) };
-            let u = sampler.pair(stream, index, of, Use::LightPoint.at(0));
-            let sample = scene.lights()[light as usize].sample(&at, u, LightPoints::Area);
-            if let Some(s) = sample.filter(|s| at.sees_side(s.wi)) {
-                proposals.segment(&at, 0, &s, Planes::NONE, Rgb::WHITE);
-            }
-        }
-        visibility.occluded(proposals.segments.as_segments(), blocked);
-        for (i, carried) in proposals.carried.iter().enumerate() {
-            if !blocked.get(i) {
-                film.add(Planes::BEAUTY, carried.cell, carried.light);
-            }
-        }
-        film.next_sample();
-        if plan.begin(replicate + 1) == pass + 1 {
-            film.close_replicate();
+    seen: Seen,
+    watch: &mut dyn FnMut(Progress) -> Flow,
+) -> Estimated {
+    let estimator = kind.make(scene, Options { shadow_rays: 1, ..settings.options() });
+    let paths = matches!(kind, EstimatorKind::Path | EstimatorKind::PathHemisphere);
+    let bounces = if paths { settings.bounces } else { 1 };
+    estimate(estimator.as_ref(), bounces, scene, queries, settings, seen, watch)
+}
+
+/// The loop over points: each of the `shadow_rays` samples is a pass.
+fn estimate(
+    estimator: &dyn Estimator,
+    bounces: u32,
+    scene: &Scene,
+    queries: &[Query],
+    settings: &Settings,
+    seen: Seen,
+    watch: &mut dyn FnMut(Progress) -> Flow,
+) -> Estimated {
+    let job = Job {
+        scene,
+        visibility: &scene.visibility(settings.masks == Masks::Opaque),
+        sensor: &PointSensor { queries },
+        estimator,
+        sampler: settings.sampler(),
+        seed: settings.seed,
+        shadow_rays: 1,
+        bounces,
+        passes: settings.passes_of(settings.shadow_rays),
+        planes: Planes::NONE,
+        light_planes: LightPlanes::default(),
+        look: settings.look(),
+        seen,
+        shadows: settings.shadows,
+        distance_test: settings.distance_test,
+    };
+    let finished = schedule::run(&job, settings.threads, watch);
+    let mut out = Estimated { rays_done: finished.passes_done, ..Estimated::default() };
+    for (_, film) in &finished.tiles {
+        for cell in 0..film.cells() {
+            let single = |v: [f64; 3]| v.map(|c| c as f32);
+            out.values.push(single(film.mean(Planes::BEAUTY, cell)));
+            out.standard_error.push(film.standard_error(cell).map_or([f32::NAN; 3], single));
         }
     }
-    film
+    out
+}
+
+impl Estimated {
+    fn scaled(mut self, unit: f32) -> Estimated {
+        let all = self.values.iter_mut().chain(&mut self.standard_error);
+        all.flatten().for_each(|v| *v *= unit);
+        self
+    }
 }
 
 /// One light point for each query, from three numbers each (which light, where on it): what a student's own estimator
