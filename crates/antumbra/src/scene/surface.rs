@@ -36,8 +36,6 @@ pub struct Met {
     pub receiver: Receiver,
     /// L_e toward where the ray came from, and the light it belongs to.
     pub emitted: Option<(LightId, Rgb)>,
-    /// The ray met the front.
-    pub front: bool,
 }
 
 /// A point of a primitive with its outward unit normal, in f64.
@@ -76,7 +74,7 @@ impl Scene {
         };
         let light = self.light_of(object, local);
         let emitted = light.map(|id| (id, self.lights()[id as usize].emitted(-wo, front)));
-        Met { receiver, emitted: emitted.filter(|(_, l)| !l.is_black()), front }
+        Met { receiver, emitted: emitted.filter(|(_, l)| !l.is_black()) }
     }
 
     fn place(&self, object: &Placed, local: u32, p: DVec3, uv: [f32; 2]) -> Place {

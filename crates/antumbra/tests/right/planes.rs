@@ -75,6 +75,15 @@ fn the_unshadowed_plane_is_the_picture_without_shadows() {
     judge.verdict("the_unshadowed_plane_is_the_picture_without_shadows", 1e-3);
 }
 
+/// With the samples of the picture: `area` without shadows is its own unshadowed plane, bit for bit.
+#[test]
+fn the_unshadowed_plane_has_the_noise_of_the_picture() {
+    let scene = rooms::lit().build().unwrap();
+    let s = Settings { aov: Planes::ALL, shadows: false, viewing_rays: 8, ..small(EstimatorKind::Area) };
+    let picture = look(&scene, &s);
+    assert_eq!(plane(&picture, "unshadowed-direct"), plane(&picture, "direct"));
+}
+
 /// Normal, position, depth, albedo of a floor seen from above, and the visible fraction of its light: 1 in the open, 0
 /// under a lid.
 #[test]
