@@ -15,7 +15,8 @@ import importlib
 from typing import TYPE_CHECKING, Any
 
 from antumbra._core import __version__
-from antumbra.errors import Message, OptionError, RenderStopped, SceneError
+from antumbra.errors import OptionError, RenderStopped, SceneError
+from antumbra.messages import Message
 
 if TYPE_CHECKING:
     from antumbra import lights, materials, shapes

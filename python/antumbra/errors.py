@@ -1,8 +1,8 @@
-"""What antumbra tells people: notes and warnings, and what it raises beside ValueError and TypeError."""
+"""What antumbra raises beside ValueError and TypeError."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from antumbra.image import Image
@@ -36,11 +36,3 @@ class RenderStopped(KeyboardInterrupt):
         """Keeps the work so far."""
         super().__init__("stopped")
         self.image = image
-
-
-class Message(NamedTuple):
-    """A note or warning about a scene: its `level`, the `place` in the file (may be empty), and what it says."""
-
-    level: str
-    place: str
-    text: str

@@ -109,7 +109,7 @@ class Estimate(NDArrayOperatorsMixin):
         """The same for a notebook."""
         from antumbra.notebook import estimate_html
 
-        return estimate_html(self)
+        return estimate_html(repr(self).strip("<>"), self.values)
 
 
 def _short(x: float) -> str:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from antumbra import _core
-from antumbra.errors import Message
+from antumbra.messages import Message
 
 
 class Image:
@@ -121,7 +121,7 @@ class Image:
     def _repr_html_(self) -> str:
         from antumbra.notebook import image_html
 
-        return image_html(self)
+        return image_html(self.png(), self.width, self.name, self.summary())
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Pickles the arrays, not the core's object."""

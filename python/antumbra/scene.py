@@ -13,12 +13,13 @@ from numpy.typing import ArrayLike, NDArray
 from antumbra import _core, settings
 from antumbra._arrays import indices, matching, numbers, per_row, places, rows
 from antumbra._values import Color, Vector, color, vector
-from antumbra.errors import Message, RenderStopped
+from antumbra.errors import RenderStopped
 from antumbra.estimate import Estimate
 from antumbra.hit import Hit, Receivers
 from antumbra.image import Image
 from antumbra.lights import Environment, Light
 from antumbra.materials import Diffuse, Material
+from antumbra.messages import Message
 from antumbra.shapes import Shape
 
 

@@ -1,11 +1,12 @@
 //! What a line costs: the queries once more, with counters. Same answers, through f64, slower.
 
 use crate::law::Line;
+use crate::object::Object;
 use crate::traverse::{
     Ask, Best, Count, ExactTriangles, ExactVisit, Opaque, ShapeTree, ShapeVisit, TriangleTree, any_hit_exact,
     nearest_hit_exact,
 };
-use crate::world::{Object, World};
+use crate::world::World;
 use crate::{Bits, Hits, Segments};
 
 /// What one line visited.

@@ -3,10 +3,46 @@
 use crate::build::{BuildOptions, Item, Workers, build};
 use crate::law::shape_box;
 use crate::layout::{Bounds, TriangleBlock, WIDTH, filled};
+use crate::object::Object;
 use crate::place::{Place, PlaceTree};
 use crate::traverse::{Limits, Numbered, ShapeTree, TriangleTree};
-use crate::world::{Object, WorldError};
 use crate::{Geometry, Instance, NO_PRIM, PrimId, Shape, Triangles};
+
+/// Why a world cannot be built.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum WorldError {
+    /// An instance names a geometry that does not exist.
+    #[error("instance {instance} shows geometry {geometry}, but there are only {count}")]
+    NoSuchGeometry {
+        /// The instance.
+        instance: usize,
+        /// What it names.
+        geometry: u32,
+        /// How many there are.
+        count: usize,
+    },
+    /// A triangle names a vertex that does not exist.
+    #[error("triangle {triangle} of geometry {geometry} uses a vertex that does not exist")]
+    NoSuchVertex {
+        /// The geometry.
+        geometry: usize,
+        /// The triangle.
+        triangle: usize,
+    },
+    /// A number is NaN or infinite, or a radius is not above 0.
+    #[error(
+        "primitive {primitive} of geometry {geometry} has a number that is not finite, or a radius not above 0"
+    )]
+    NotFinite {
+        /// The geometry.
+        geometry: usize,
+        /// The primitive.
+        primitive: usize,
+    },
+    /// More primitives than a [`PrimId`] can number.
+    #[error("more than 4 294 967 294 primitives")]
+    TooMany,
+}
 
 /// Indices exist, numbers are finite.
 pub(crate) fn check(geometries: &[Geometry], workers: Workers) -> Result<(), WorldError> {

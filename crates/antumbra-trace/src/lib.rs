@@ -12,6 +12,8 @@ mod draft;
 mod geometry;
 pub mod law;
 mod layout;
+mod level;
+mod object;
 mod passes;
 mod place;
 pub mod start;
@@ -23,10 +25,11 @@ pub use batch::{Bits, Grown, Hits, SegmentBuffer, Segments, TO_POINT};
 pub use brute::Brute;
 pub use build::{BuildOptions, Pool};
 pub use counted::Work;
-pub use dispatch::SimdLevel;
+pub use draft::WorldError;
 pub use geometry::{Geometry, Instance, NO_PRIM, PrimId, Shape, Triangles};
+pub use level::SimdLevel;
 pub use passes::Passes;
-pub use world::{TreeStats, World, WorldError};
+pub use world::{TreeStats, World};
 
 /// Which segments are blocked, what a ray meets first.
 ///

@@ -3,11 +3,12 @@
 use fearless_simd::Simd;
 
 use crate::law::Line;
+use crate::object::Object;
 use crate::traverse::{
     AnyTriangle, Ask, Best, Count, ExactTriangles, FastLine, Masks, NearestTriangle, NotCounted, ShapeTree,
     ShapeVisit, TriangleTree, VisitAny, VisitNearest, any_hit, any_hit_exact, nearest_hit, nearest_hit_exact,
 };
-use crate::world::{Object, World};
+use crate::world::World;
 use crate::{Hits, NO_PRIM, Segments};
 
 /// Whether entry `i`, rounded to `line`, is blocked.

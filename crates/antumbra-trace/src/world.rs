@@ -1,48 +1,12 @@
 //! A world: triangles and shapes in trees, instances that share them. Built once, then only asked.
 
 use crate::build::{BuildOptions, Pool};
-use crate::dispatch::SimdLevel;
-use crate::draft::{Draft, check};
-use crate::layout::Tree;
+use crate::draft::{Draft, WorldError, check};
+use crate::level::SimdLevel;
+use crate::object::Object;
 use crate::place::PlaceTree;
 use crate::traverse::{ShapeTree, TriangleTree};
 use crate::{Geometry, Instance, NO_PRIM, PrimId};
-
-/// Why a world cannot be built.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum WorldError {
-    /// An instance names a geometry that does not exist.
-    #[error("instance {instance} shows geometry {geometry}, but there are only {count}")]
-    NoSuchGeometry {
-        /// The instance.
-        instance: usize,
-        /// What it names.
-        geometry: u32,
-        /// How many there are.
-        count: usize,
-    },
-    /// A triangle names a vertex that does not exist.
-    #[error("triangle {triangle} of geometry {geometry} uses a vertex that does not exist")]
-    NoSuchVertex {
-        /// The geometry.
-        geometry: usize,
-        /// The triangle.
-        triangle: usize,
-    },
-    /// A number is NaN or infinite, or a radius is not above 0.
-    #[error(
-        "primitive {primitive} of geometry {geometry} has a number that is not finite, or a radius not above 0"
-    )]
-    NotFinite {
-        /// The geometry.
-        geometry: usize,
-        /// The primitive.
-        primitive: usize,
-    },
-    /// More primitives than a [`PrimId`] can number.
-    #[error("more than 4 294 967 294 primitives")]
-    TooMany,
-}
 
 /// What a tree is made of.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -59,23 +23,6 @@ pub struct TreeStats {
     pub depth: usize,
     /// Expected node visits of a random line through the tree of world-space triangles (surface-area heuristic).
     pub sah_cost: f64,
-}
-
-/// Primitives of one geometry in a tree of their own, shared by instances.
-#[derive(Clone, Debug)]
-pub(crate) enum Object {
-    Triangles(TriangleTree),
-    Shapes(ShapeTree),
-}
-
-impl Object {
-    /// Its nodes.
-    pub fn tree(&self) -> &Tree {
-        match self {
-            Object::Triangles(t) => &t.tree,
-            Object::Shapes(s) => &s.tree,
-        }
-    }
 }
 
 /// Triangles and shapes, placed and searchable. Equals `Brute` bit for bit.

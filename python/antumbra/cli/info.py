@@ -12,7 +12,7 @@ import click
 from antumbra import _core
 from antumbra.cli import _say, _scene
 from antumbra.cli._command import Option, Verb
-from antumbra.errors import Message
+from antumbra.messages import Message
 
 ORDER = 2
 _COLUMN = 25

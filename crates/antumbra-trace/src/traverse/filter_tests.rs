@@ -4,8 +4,8 @@
 use fearless_simd::{Level, dispatch};
 
 use super::*;
-use crate::dispatch::SimdLevel;
 use crate::law::{self, Line};
+use crate::level::SimdLevel;
 use crate::traverse::ray::Limits;
 
 #[allow(dead_code, reason = "shared with the attacks on the law, which use more of it")]
