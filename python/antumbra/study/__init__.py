@@ -1,0 +1,1 @@
+"""Error against rays and seconds: statistics, plots, and studies of a scene."""

@@ -1,0 +1,52 @@
+"""The test of bias: rarely a false alarm, and a planted bias is found, even one that cancels in the mean."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from antumbra.study.bias import bias
+
+
+def noisy(random, replicates, truth, sigma):
+    return truth + random.normal(0, sigma, (replicates, *truth.shape))
+
+
+TRUTH = np.linspace(0.5, 1.5, 16 * 16).reshape(16, 16)
+
+
+def test_false_alarms_are_rarer_than_alpha():
+    random = np.random.default_rng(1)
+    alarms = [
+        bias(noisy(random, 6, TRUTH, 0.3), noisy(random, 6, TRUTH, 0.1), alpha=0.05).flagged for _ in range(600)
+    ]
+    # The count is binomial with p ≤ 0.05: beyond 3.1 standard deviations once in 1,000.
+    assert np.mean(alarms) < 0.05 + 3.1 * np.sqrt(0.05 * 0.95 / 600)
+
+
+def test_a_bias_is_found():
+    random = np.random.default_rng(2)
+    found = bias(noisy(random, 6, 1.1 * TRUTH, 0.1), noisy(random, 6, TRUTH, 0.1))
+    assert found.flagged and found.p < 1e-3
+    # The 95 % interval of this one draw; the seed is fixed.
+    assert found.difference.contains(0.1)
+
+
+def test_a_bias_that_cancels_in_the_mean_is_found_where_it_is():
+    random = np.random.default_rng(3)
+    wrong = TRUTH.copy()
+    wrong[:4, :4] += 0.5
+    wrong[12:, 12:] -= 0.5
+    found = bias(noisy(random, 8, wrong, 0.1), TRUTH)
+    assert found.flagged and found.tile in {(0, 0, 4, 4), (12, 12, 4, 4)}
+
+
+def test_without_noise_only_a_real_difference_counts():
+    same = np.stack([TRUTH] * 3)
+    assert not bias(same, TRUTH).flagged
+    assert bias(same, TRUTH + 0.01).flagged
+
+
+def test_pictures_of_another_size_are_told():
+    with pytest.raises(ValueError, match="same picture"):
+        bias(np.zeros((3, 4, 4)), np.zeros((4, 5)))

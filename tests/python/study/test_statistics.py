@@ -1,0 +1,163 @@
+"""Statistics on synthetic data whose truth is known. Seeds are fixed.
+
+Coverage tests count how many of M = 2,000 intervals of level 95 % hold the truth. The count is binomial: beyond
+±3.3 standard deviations (±1.6 %) by chance once in 1,000 (α = 10⁻³ each).
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from antumbra.study import statistics as st
+from antumbra.study._quantiles import chi2_quantile, t_quantile
+
+M = 2_000
+ALLOWED = 3.3 * math.sqrt(0.95 * 0.05 / M)
+
+
+def coverage(intervals, truth):
+    return np.mean([found.contains(truth) for found in intervals])
+
+
+# Of printed tables (Abramowitz and Stegun 26.8 and 26.10, and NIST's handbook 1.3.6.7), to their last digit.
+@pytest.mark.parametrize(
+    ("dof", "t975", "chi95"),
+    [(1, 12.706, 3.841), (2, 4.303, 5.991), (3, 3.182, 7.815), (7, 2.365, 14.067), (30, 2.042, 43.773)],
+)
+def test_quantiles_are_those_of_the_tables(dof, t975, chi95):
+    assert t_quantile(0.975, dof) == pytest.approx(t975, abs=6e-4)
+    assert t_quantile(0.025, dof) == -t_quantile(0.975, dof)
+    assert chi2_quantile(0.95, dof) == pytest.approx(chi95, abs=6e-4)
+
+
+def test_the_interval_of_a_mean_covers_it():
+    x = np.random.default_rng(1).normal(3.0, 2.0, (M, 5))
+    assert abs(coverage(map(st.mean, x), 3.0) - 0.95) < ALLOWED
+
+
+def test_the_exact_interval_of_a_variance_covers_it():
+    x = np.random.default_rng(2).normal(3.0, 2.0, (M, 4))
+    assert abs(coverage(map(st.normal_variance, x), 4.0) - 0.95) < ALLOWED
+
+
+def test_the_jackknife_interval_of_a_picture_s_variance_covers_it():
+    # 400 cells of different variance: their average is 1/3. With so many cells the pseudo-values are nearly normal.
+    sigma = np.sqrt(np.linspace(0, 2 / 3, 401)[1:])
+    truth = float((sigma**2).mean())
+    random = np.random.default_rng(3)
+    found = [st.variance(random.normal(0, 1, (8, 400)) * sigma + 5) for _ in range(M)]
+    # The jackknife is not exact: twice what chance alone would allow.
+    assert abs(coverage(found, truth) - 0.95) < 2 * ALLOWED
+
+
+def test_variance_and_its_parts_agree():
+    x = np.random.default_rng(4).normal(0, 1, (6, 10, 3))
+    expected = x.var(axis=0, ddof=1).mean()
+    assert st.variance(x).value == pytest.approx(expected, rel=1e-12)
+    assert st.variance_by_replicate(x).mean() == pytest.approx(expected, rel=1e-12)
+    without = [np.delete(x, k, axis=0).var(axis=0, ddof=1).mean() for k in range(6)]
+    assert st.variances_without(x) == pytest.approx([expected, *without], rel=1e-12)
+
+
+def test_the_reference_s_own_noise_is_taken_off_an_error():
+    random = np.random.default_rng(5)
+    truth = random.uniform(0, 1, 4_000)
+    reference = truth + random.normal(0, 0.5, truth.shape)
+    x = truth + random.normal(0, 1.0, (10, *truth.shape))
+    plain, found = st.mse(x, reference), st.mse(x, reference, 0.25)
+    # Of 4,000 cells, the average square of the reference's noise is right to 0.25·√(2/4000) = 0.0056; four of those.
+    assert abs(found.value - 1.0) < 4 * (0.0056 + found.half / 2)
+    assert plain.value - found.value == pytest.approx(0.25, rel=1e-12)
+    assert st.rmse(x, reference, 0.25).value == pytest.approx(math.sqrt(found.value))
+
+
+def test_slopes_of_power_laws_are_found():
+    n = np.array([1, 4, 16, 64])
+    exact = 7.0 * n**-1.5
+    assert st.slopes(n, np.stack([exact, 3 * exact])) == pytest.approx([-1.5, -1.5], abs=1e-12)
+
+
+def test_the_interval_of_a_slope_covers_it():
+    random = np.random.default_rng(6)
+    n = np.array([1.0, 9.0, 36.0, 100.0])
+    # Errors of a common factor per replicate (a seed) and a small one of their own.
+    noise = random.normal(0, 0.3, (M, 6, 1)) + random.normal(0, 0.05, (M, 6, 4))
+    assert abs(coverage((st.slope(n, e) for e in np.exp(noise) / n), -1.0) - 0.95) < ALLOWED
+
+
+def test_the_jackknife_interval_of_a_variance_s_slope_covers_it():
+    random = np.random.default_rng(8)
+    n = np.array([1.0, 4.0, 16.0])
+    found = []
+    for _ in range(M):
+        # 200 cells; the replicate at N = 16 shares half of its noise with that at N = 4, as a common seed may do.
+        noise = random.normal(0, 1, (3, 6, 200))
+        noise[2] = (noise[2] + noise[1]) / math.sqrt(2)
+        x = noise / n[:, None, None] ** 0.75
+        found.append(st.variance_slope(n, np.stack([st.variances_without(v) for v in x], axis=1)))
+    assert np.mean([f.value for f in found]) == pytest.approx(-1.5, abs=0.01)
+    assert abs(coverage(found, -1.5) - 0.95) < 2 * ALLOWED
+
+
+def test_the_band_of_a_line_lies_about_it():
+    random = np.random.default_rng(7)
+    n = np.array([1.0, 4.0, 16.0])
+    errors = np.exp(random.normal(0, 0.1, (8, 3))) * 2 / n
+    found = st.line(n, errors, [1, 4, 16])
+    assert (found.low < found.value).all() and (found.value < found.high).all()
+    assert np.diff(np.log(found.value)) == pytest.approx(st.slope(n, errors).value * np.diff(np.log(n)))
+
+
+def test_efficiency_and_ratio():
+    found = st.efficiency(st.Interval(0.5, 0.4, 0.625), 4.0)
+    assert tuple(found) == pytest.approx((0.5, 0.4, 0.625))
+    assert tuple(st.ratio(st.Interval(6, 6, 6), st.Interval(3, 2, 4))) == pytest.approx((2, 1.5, 8 / 3))
+    assert math.isnan(st.efficiency(st.Interval(0, 0, 0), 1.0).value)
+
+
+@pytest.mark.parametrize(
+    ("interval", "claim", "expected"),
+    [
+        ((-0.51, -0.49), {"near": -0.5, "within": 0.02}, "supported"),
+        ((-0.60, -0.49), {"near": -0.5, "within": 0.02}, "undecided"),
+        ((-0.60, -0.55), {"near": -0.5, "within": 0.02}, "not supported"),
+        ((0.1, 0.3), {"above": 0.0}, "supported"),
+        ((-0.1, 0.3), {"above": 0.0}, "undecided"),
+        ((-0.3, -0.1), {"above": 0.0}, "not supported"),
+        ((1.0, 2.0), {"below": 3.0}, "supported"),
+        ((-math.inf, math.inf), {"below": 3.0}, "undecided"),
+    ],
+)
+def test_verdicts(interval, claim, expected):
+    low, high = interval
+    assert st.verdict(st.Interval((low + high) / 2, low, high), **claim) == expected
+
+
+@pytest.mark.parametrize(
+    ("value", "half", "text"),
+    [
+        (3.9991, 0.0142, "3.999 ± 0.014"),
+        (-0.4987, 0.0023, "−0.499 ± 0.002"),
+        (12345.6, 78.0, "12,346 ± 78"),
+        (1.5e-7, 2e-9, "(1.50 ± 0.02) · 10⁻⁷"),
+        (0.5, 0.0, "0.5"),
+        (0.5, math.inf, "0.5 ± ?"),
+    ],
+)
+def test_numbers_are_printed_as_far_as_they_are_known(value, half, text):
+    assert st.plus_minus(value, half) == text
+
+
+def test_what_cannot_be_answered_is_told():
+    with pytest.raises(ValueError, match="at least one"):
+        st.mean([])
+    assert st.mean([1.0]) == (1.0, -math.inf, math.inf)
+    with pytest.raises(ValueError, match="at least 3"):
+        st.variance([[1.0], [2.0]])
+    with pytest.raises(ValueError, match="above 0"):
+        st.slope([1, 2], [[1.0, 0.0], [1.0, 1.0]])
+    with pytest.raises(ValueError, match="pairs"):
+        st.paired_difference([1, 2, 3], [1, 2])
