@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from antumbra.study import statistics
-from antumbra.study._quantiles import t_inside
+from antumbra.study._quantiles import t_inside, t_quantile
 
 # False alarms: at most one in a thousand tests of a right estimator.
 ALPHA = 1e-3
@@ -47,7 +48,9 @@ def bias(
     x, r = np.asarray(replicates, np.float64), np.asarray(reference, np.float64)
     r = r[None] if r.ndim == x.ndim - 1 else r
     if len(x) < 2 or x.shape[1:] != r.shape[1:]:
-        raise ValueError(f"replicates {x.shape}, reference {r.shape}: at least 2, and the same picture, are needed")
+        raise ValueError(
+            f"replicates {x.shape}, reference {r.shape}: at least 2, and the same picture, are needed"
+        )
     boxes = _boxes(x.shape[1], x.shape[2], tiles)
     places: list[tuple[int, int, int, int] | None] = [None, *(boxes if len(boxes) > 1 else [])]
     tests = [_p(_means(x, place), _means(r, place)) for place in places]
@@ -59,11 +62,7 @@ def bias(
 def _boxes(height: int, width: int, tiles: int) -> list[tuple[int, int, int, int]]:
     xs = sorted({round(width * i / tiles) for i in range(tiles + 1)})
     ys = sorted({round(height * i / tiles) for i in range(tiles + 1)})
-    return [
-        (x, y, x1 - x, y1 - y)
-        for y, y1 in zip(ys[:-1], ys[1:], strict=True)
-        for x, x1 in zip(xs[:-1], xs[1:], strict=True)
-    ]
+    return [(x, y, x1 - x, y1 - y) for y, y1 in pairwise(ys) for x, x1 in pairwise(xs)]
 
 
 def _means(pictures: NDArray[np.float64], place: tuple[int, int, int, int] | None) -> NDArray[np.float64]:
@@ -85,7 +84,7 @@ def _p(x: NDArray[np.float64], r: NDArray[np.float64]) -> float:
 
 def _difference(x: NDArray[np.float64], r: NDArray[np.float64]) -> statistics.Interval:
     error, dof = _error(x, r)
-    gap, half = float(x.mean() - r.mean()), statistics.t_quantile(0.975, dof) * error
+    gap, half = float(x.mean() - r.mean()), t_quantile(0.975, dof) * error
     return statistics.Interval(gap, gap - half, gap + half)
 
 

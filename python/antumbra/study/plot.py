@@ -191,10 +191,10 @@ class _Page:
             self._plot(x, curve.line.value, number, "ln")
         else:
             self._plot(curve.x, curve.y, number, "ln")
-        for x, low, high in zip(curve.x, curve.low, curve.high, strict=False):
-            if low < high and math.isfinite(high):
-                bottom = max(low, self.axes.get_ylim()[0])
-                self._plot([x, x], [bottom, high], number, "eb")
+        for place, least, most in zip(curve.x, curve.low, curve.high, strict=False):
+            if least < most and math.isfinite(most):
+                bottom = max(least, self.axes.get_ylim()[0])
+                self._plot([place, place], [bottom, most], number, "eb")
         hollow = np.broadcast_to(np.asarray(curve.hollow or (False,), np.bool_), (len(curve.x),))
         for name, which in (("mk", ~hollow), ("mk h", hollow)):
             if which.any():

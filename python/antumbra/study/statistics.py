@@ -234,7 +234,9 @@ def ratio(a: Interval, b: Interval) -> Interval:
     if a.value <= 0 or b.value <= 0:
         return Interval(math.nan, 0.0, math.inf)
     spread = math.hypot(_log_half(a), _log_half(b))
-    return Interval(a.value / b.value, a.value / b.value * math.exp(-spread), a.value / b.value * math.exp(spread))
+    return Interval(
+        a.value / b.value, a.value / b.value * math.exp(-spread), a.value / b.value * math.exp(spread)
+    )
 
 
 def verdict(

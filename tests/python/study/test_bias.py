@@ -18,7 +18,8 @@ TRUTH = np.linspace(0.5, 1.5, 16 * 16).reshape(16, 16)
 def test_false_alarms_are_rarer_than_alpha():
     random = np.random.default_rng(1)
     alarms = [
-        bias(noisy(random, 6, TRUTH, 0.3), noisy(random, 6, TRUTH, 0.1), alpha=0.05).flagged for _ in range(600)
+        bias(noisy(random, 6, TRUTH, 0.3), noisy(random, 6, TRUTH, 0.1), alpha=0.05).flagged
+        for _ in range(600)
     ]
     # The count is binomial with p ≤ 0.05: beyond 3.1 standard deviations once in 1,000.
     assert np.mean(alarms) < 0.05 + 3.1 * np.sqrt(0.05 * 0.95 / 600)

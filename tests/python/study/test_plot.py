@@ -28,11 +28,19 @@ def test_a_plot_is_a_labelled_picture_that_takes_its_colours_from_the_page():
     svg = drawn(curves("random", "owen <4>"), chosen="owen <4>")
     root = ElementTree.fromstring(svg)
     assert root.get("role") == "img" and root.get("aria-label") == "RMSE against N."
-    assert [(g.get("data-s"), g.get("class")) for g in root.findall("g")] == [("random", None), ("owen <4>", "on")]
+    assert [(g.get("data-s"), g.get("class")) for g in root.findall("g")] == [
+        ("random", None),
+        ("owen <4>", "on"),
+    ]
     assert not re.search(r"style=|#[0-9a-f]{3}|font|<defs|<style|id=", svg)
     for group in root.findall("g"):
         classes = [e.get("class") for e in group]
-        assert (classes.count("ln"), classes.count("bd"), classes.count("eb"), classes.count("mk")) == (1, 1, 4, 4)
+        assert (classes.count("ln"), classes.count("bd"), classes.count("eb"), classes.count("mk")) == (
+            1,
+            1,
+            4,
+            4,
+        )
         assert [t.get("class") for t in group.findall("text")] == [None, "fine"]
     assert "slope −0.5" in root.findall("g")[0].findall("text")[1].text
 
@@ -51,7 +59,9 @@ def test_marks_differ_in_shape_and_hollow_ones_are_not_fitted():
     made = curves("a", "b")
     half = plot.measured("c", N, 1 / np.stack([N, 2 * N]), fit=[True, False, True, True])
     svg = drawn([*made, half])
-    shapes = [re.findall(r'class="mk" transform="[^"]*" d="([^"]*)"', part)[0] for part in svg.split("<g ")[1:]]
+    shapes = [
+        re.findall(r'class="mk" transform="[^"]*" d="([^"]*)"', part)[0] for part in svg.split("<g ")[1:]
+    ]
     assert len(set(shapes)) == 3
     assert svg.count('class="mk h"') == 1
 
