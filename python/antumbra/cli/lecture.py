@@ -1,0 +1,193 @@
+"""`antumbra lecture`: the experiments of the lecture, rendered, measured, and put on one page."""
+
+from __future__ import annotations
+
+import sys
+import time
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from types import TracebackType
+from typing import TYPE_CHECKING, Any, Self
+
+import click
+
+from antumbra.cli import _say
+from antumbra.cli._command import Option, Verb
+
+if TYPE_CHECKING:
+    import rich.progress
+
+    from antumbra.lecture.make import Lecture, Step
+
+ORDER = 2
+OURS, STOPPED = 1, 130
+# Room that a whole lecture may take.
+_ROOM = {True: 40_000_000, False: 250_000_000}
+
+
+def run(
+    figure: tuple[str, ...],
+    output: str,
+    quick: bool,
+    single_file: bool,
+    seed: int,
+    quiet: bool,
+    verbose: bool,
+) -> int:
+    """Render the lecture: each FIGURE (all without names) with its question, pictures, number and claims, on one page.
+
+    What is finished is kept: the same command goes on where it was stopped.
+    """
+    from antumbra.lecture import catalog
+    from antumbra.lecture.make import Lecture
+
+    lecture = Lecture(Path(output), catalog.chosen(figure), quick=quick, seed=seed, single=single_file)
+    try:
+        lecture.folder.check(_ROOM[quick])
+    except OSError as problem:
+        what = problem.strerror or str(problem)
+        raise click.UsageError(f"{output} cannot be written ({what}). Nothing was rendered.") from problem
+    waiting = lecture.waiting()
+    if not quiet:
+        print(_plan(lecture, waiting), file=sys.stderr, flush=True)
+    began = time.monotonic()
+    try:
+        with _Bar(quiet) as bar:
+            lecture.run(bar.step, lambda result: None if quiet else bar.say(_line(result)))
+    except KeyboardInterrupt:
+        return _stopped(lecture, output)
+    except OSError as problem:
+        return _unwritten(lecture, output, problem)
+    print(_ending(lecture, output, time.monotonic() - began))
+    return 0
+
+
+VERB = Verb(
+    "lecture",
+    run,
+    arguments=[("FIGURE", False)],
+    examples=[
+        ("antumbra lecture --quick -o lecture", "all figures, coarse"),
+        ("antumbra lecture regions -o lecture", "one figure at full size"),
+        ("antumbra lecture -o lecture --single-file", "one file to pass on"),
+    ],
+    options=[
+        Option(
+            "-o",
+            "--output",
+            "output",
+            group="Files",
+            metavar="FOLDER",
+            default="lecture",
+            help="folder of the page: index.html, pictures/, exr/, lecture.json [lecture]",
+        ),
+        Option(
+            "--single-file",
+            group="Files",
+            is_flag=True,
+            help="index.html holds the pictures (at most 25 MB)",
+        ),
+        Option("--quick", group="Sampling", is_flag=True, help="coarse pictures and numbers, about two minutes in all"),
+        Option("--seed", group="Sampling", metavar="N", type=click.IntRange(0), default=0, help="another seed, another noise [0]"),
+    ],
+)
+VERB.params[0].nargs = -1
+
+
+class _Bar:
+    """A bar on standard error for the whole lecture, with the time left, where standard error is a terminal."""
+
+    def __init__(self, quiet: bool) -> None:
+        self._wanted = not quiet and sys.stderr.isatty()
+        self._bar: rich.progress.Progress | None = None
+
+    def __enter__(self) -> Self:
+        if self._wanted:
+            import rich.console
+            import rich.progress as r
+
+            self._bar = r.Progress(
+                r.TextColumn("  {task.description}"),
+                r.BarColumn(),
+                r.TextColumn("{task.fields[left]}"),
+                console=rich.console.Console(stderr=True),
+            )
+            self._bar.add_task("lecture", total=1.0, left="")
+            self._bar.start()
+        return self
+
+    def __exit__(self, *_: type[BaseException] | BaseException | TracebackType | None) -> None:
+        if self._bar:
+            self._bar.stop()
+
+    def step(self, at: Step) -> None:
+        if self._bar:
+            task = self._bar.task_ids[0]
+            words = f"{at.name} · {at.done + 1} of {at.all}"
+            share = (at.done + at.share) / at.all
+            self._bar.update(task, completed=share, description=words, left=f"{_about(at.left)} left")
+
+    def say(self, line: str) -> None:
+        if self._bar:
+            self._bar.console.print(line, highlight=False, markup=False, soft_wrap=True)
+        elif line:
+            print(line, file=sys.stderr, flush=True)
+
+
+def _plan(lecture: Lecture, waiting: Sequence[str]) -> str:
+    figures = [name for name in waiting if name in lecture.figures]
+    kept = len(lecture.figures) - len(figures)
+    parts = [_say.some(len(lecture.figures), "figure"), *([f"{kept} of them finished"] if kept else [])]
+    if waiting:
+        parts.append(f"about {_about(lecture.seconds(waiting))} on two cores")
+    return "  lecture · " + " · ".join(parts)
+
+
+def _about(seconds: float) -> str:
+    if seconds < 90:
+        return f"{max(1, round(seconds))} s"
+    return f"{round(seconds / 60)} min"
+
+
+def _line(result: Mapping[str, Any]) -> str:
+    if "claims" not in result:
+        return ""
+    answer = result["answer"]
+    error = f" ± {answer['error']}" if answer["error"] else ""
+    unit = f" {answer['unit']}" if answer["unit"] else ""
+    return f"  {result['name']:<18}{answer['value']}{error}{unit} · {_verdicts([result])} · {_say.seconds(result['seconds'])}"
+
+
+def _verdicts(results: Sequence[Mapping[str, Any]]) -> str:
+    found = [claim["verdict"] for result in results for claim in result["claims"]]
+    counts = [(found.count(word), word) for word in ("supported", "undecided", "not supported")]
+    return "claims: " + ", ".join(f"{n} {word}" for n, word in counts if n)
+
+
+def _results(lecture: Lecture) -> list[Mapping[str, Any]]:
+    return [found for name in lecture.figures if (found := lecture.folder.kept(name))]
+
+
+def _ending(lecture: Lecture, output: str, seconds: float) -> str:
+    done = _results(lecture)
+    page = Path(output) / "index.html"
+    return f"{page}   {_say.some(len(done), 'figure')} · {_verdicts(done)} · {_say.seconds(seconds)}"
+
+
+def _stopped(lecture: Lecture, output: str) -> int:
+    done = len(lecture.figures) - sum(name in lecture.figures for name in lecture.waiting())
+    print(
+        f"stopped: {done} of {_say.some(len(lecture.figures), 'figure')} finished and kept in {output}; "
+        "the same command goes on",
+        file=sys.stderr,
+    )
+    return STOPPED
+
+
+def _unwritten(lecture: Lecture, output: str, problem: OSError) -> int:
+    done = len(lecture.figures) - sum(name in lecture.figures for name in lecture.waiting())
+    _say.error(
+        f"{output} cannot be written any more ({problem.strerror or problem})",
+        f"{done} of {_say.some(len(lecture.figures), 'figure')} are finished and kept; the same command goes on.",
+    )
+    return OURS

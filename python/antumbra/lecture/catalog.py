@@ -1,0 +1,59 @@
+"""Which figures there are: every file of `figures/`."""
+
+from __future__ import annotations
+
+import importlib
+import pkgutil
+from collections.abc import Sequence
+from functools import cache
+from pathlib import Path
+
+from antumbra.errors import OptionError
+from antumbra.lecture.figure import Figure
+
+
+def names() -> list[str]:
+    """Names of all figures as people type them, without importing any."""
+    from antumbra.lecture import figures
+
+    return sorted(module.name.replace("_", "-") for module in pkgutil.iter_modules(figures.__path__))
+
+
+def figure(name: str) -> Figure:
+    """One figure, imported from its file."""
+    module = importlib.import_module(f"antumbra.lecture.figures.{name.replace('-', '_')}")
+    found: Figure = module.FIGURE
+    return found
+
+
+@cache
+def ordered() -> dict[str, Figure]:
+    """All figures by name, in the order of their numbers."""
+    found = {name: figure(name) for name in names()}
+    return dict(sorted(found.items(), key=lambda item: item[1].number))
+
+
+def chosen(asked: Sequence[str]) -> dict[str, Figure]:
+    """The figures of these names, or all without names.
+
+    Raises OptionError with the nearest right name.
+    """
+    from antumbra import _core
+
+    known = names()
+    for name in asked:
+        if name not in known:
+            near = _core.nearest(name, known)
+            hint = f'; did you mean "{near}"?' if near else ""
+            raise OptionError(f'there is no figure "{name}"{hint} ({", ".join(ordered())})')
+    return {name: each for name, each in ordered().items() if not asked or name in asked}
+
+
+def sources(name: str) -> list[Path]:
+    """The files that decide what a figure finds: its own, and all of the lecture that is neither page nor figure."""
+    here = Path(__file__).parent
+    shared = [
+        path for path in here.rglob("*.py") if path.relative_to(here).parts[0] not in ("figures", "page")
+    ]
+    own = here / "figures" / f"{name.replace('-', '_')}.py"
+    return [*sorted(shared), *([own] if own.is_file() else [])]

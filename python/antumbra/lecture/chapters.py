@@ -1,0 +1,130 @@
+"""What opens each chapter of the lecture."""
+
+from __future__ import annotations
+
+from antumbra.lecture.figure import Chapter, Equation, Pick, Variant
+from antumbra.lecture.scenes import builtin
+
+# Equations that several figures share: LaTeX, and the same in words and signs.
+DIRECT = (
+    r"L_o(p) = f_r L_e \int_{A_L} \mark{V(p, p')} \, \frac{\cos\theta \, \cos\theta'}{r^2} \, \text{d}A",
+    "L_o(p) = f_r L_e ∫ over the light of V(p, p′) · cos θ cos θ′ / r² dA",
+)
+SUM = (
+    r"L_o \approx \frac{f_r L_e}{N} \sum_{j=1}^{N} \mark{\frac{V(p, p'_j) \, \cos\theta_j \, \cos\theta'_j}{\text{pdf}(p'_j) \, r_j^2}}",
+    "L_o ≈ (f_r L_e / N) · sum over N shadow rays of V cos θ cos θ′ / (pdf r²)",
+)
+HEMISPHERE = (
+    r"L_o(p) = \int_{\Omega} f_r \, \mark{L_i(\omega) \, \cos\theta \, \text{d}\omega}, \qquad "
+    r"\text{d}\omega = \frac{\cos\theta'}{r^2} \, \text{d}A",
+    "L_o(p) = ∫ over the hemisphere of f_r L_i cos θ dω, with dω = cos θ′ / r² dA",
+)
+SEGMENT = (
+    r"V(p, p') = \begin{cases} 0 & \exists \, \mark{t \in (0, 1)} : p + t \, (p' - p) \in \text{a surface} \\ 1 & \text{else} \end{cases}",
+    "V(p, p′) = 0 if p + t (p′ − p) lies on a surface for some t strictly between 0 and 1, else 1",
+)
+
+_SIZE = Pick((280, 196), (560, 392))
+_VIEW = {"size": _SIZE, "eye": (-7.4, 5.6, 5.4), "look_at": (0.3, 0.55, 0.3), "fov": 0.5}
+_PILLARS = _VIEW | {"estimator": "area", "viewing_rays": Pick(4, 64), "shadow_rays": Pick(4, 16)}
+_ONE_RAY = _VIEW | {"viewing": "centre", "viewing_rays": 1, "light_points": "area", "sampler": "random"}
+
+
+def _pillars(key: str, **options: object) -> Variant:
+    return Variant(key, builtin("pillars"), _PILLARS | options)
+
+
+CHAPTERS = (
+    Chapter(
+        number=1,
+        title="Shadows",
+        short="Shadows",
+        paragraphs=(
+            "Without shadows a ball has no place: it could lie on the floor or float above it, and the picture would "
+            "be the same. The shadow decides.",
+            "Two things have to be found for every point: which part of the light it sees, and how bright that part "
+            "makes it. The first is geometry, a yes or no for each segment. The second is an integral. This chapter "
+            "is about the first.",
+        ),
+        equation=Equation(
+            (DIRECT,),
+            "The visibility V is 1 where the segment from p to p′ is free, and 0 where something lies on it.",
+        ),
+        pictures=(
+            (
+                _pillars("off", shadows="off"),
+                "Pillars on a floor, without shadows: they seem to float.",
+                "V = 1 everywhere",
+            ),
+            (_pillars("on"), "The same pillars with soft shadows: all of them stand on the floor.", "V as it is"),
+        ),
+    ),
+    Chapter(
+        number=2,
+        title="Shadow rays",
+        short="Shadow rays",
+        paragraphs=(
+            "A shadow ray asks one question: is anything strictly between these two points? The first yes ends the "
+            "search, whatever else lies on the segment.",
+            "Strictly between is the difficult part. What lies behind the light must not count, and the surface that "
+            "the ray starts from must not either. Both are easily got wrong, and both are seen at once.",
+        ),
+        equation=Equation((SEGMENT,), "Marked: both ends are left out. p lies on the receiver, p′ on the light."),
+        pictures=(
+            (
+                _pillars("self", self_intersection="none", sampler="random"),
+                "Shadow rays that start at the rounded point: the floor shadows itself in patches.",
+                "ends counted",
+            ),
+            (_pillars("right"), "The same picture with the ends left out: clean shadows.", "strictly between"),
+        ),
+    ),
+    Chapter(
+        number=3,
+        title="Two integrals",
+        short="Two integrals",
+        paragraphs=(
+            "The light that arrives can be added up over directions, or over points of the lights. Both sums have the "
+            "same value: dω and dA are two ways to cut up the same light.",
+            "As estimators they are far apart. A random direction may miss the light, a random point of the light may "
+            "be hidden. Which is worse depends on how much of the sky the light fills.",
+        ),
+        equation=Equation((HEMISPHERE,), "Marked: what a direction brings, and what it is as a piece of the light."),
+        pictures=(
+            (
+                _pillars("hemisphere", estimator="hemisphere", viewing_rays=1, shadow_rays=16, sampler="random"),
+                "Sixteen random directions a pixel: black with a few bright dots, where one met the light.",
+                "16 directions",
+            ),
+            (
+                _pillars("area", viewing_rays=1, shadow_rays=16, sampler="random"),
+                "Sixteen random points of the light a pixel: smooth, with some noise in the penumbra.",
+                "16 points of the light",
+            ),
+        ),
+    ),
+    Chapter(
+        number=4,
+        title="Sampling the light",
+        short="Sampling",
+        paragraphs=(
+            "The integral becomes a mean over points of the light. How the points are chosen decides how fast the "
+            "noise goes, and whether the mean is right at all.",
+            "Noise can be seen and measured. A wrong density cannot be seen: the picture is clean, and false. So each "
+            "estimator here is held against another one that must agree.",
+        ),
+        equation=Equation((SUM,), "Marked: one shadow ray. The density in which points are drawn divides it out again."),
+        pictures=(
+            (
+                Variant("one", builtin("pillars"), {**_ONE_RAY, "estimator": "area", "shadow_rays": 1}),
+                "One random shadow ray a pixel: penumbras are black and white dots.",
+                "1 shadow ray",
+            ),
+            (
+                Variant("hundred", builtin("pillars"), {**_ONE_RAY, "estimator": "area", "shadow_rays": 100}),
+                "A hundred random shadow rays a pixel: smooth penumbras.",
+                "100 shadow rays",
+            ),
+        ),
+    ),
+)

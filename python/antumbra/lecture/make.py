@@ -1,0 +1,228 @@
+"""Runs the figures of a lecture, keeps what they find, and writes the page: `Lecture`."""
+
+from __future__ import annotations
+
+import json
+import time
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from antumbra import __version__
+from antumbra.lecture import catalog, page
+from antumbra.lecture.chapters import CHAPTERS
+from antumbra.lecture.figure import Chapter, Figure, Pick
+from antumbra.lecture.keep import Folder, key
+from antumbra.lecture.quantity import Quantity
+from antumbra.lecture.run import Run
+from antumbra.lecture.stages import Picture, plain
+from antumbra.lecture.verdict import verdict
+
+# What the two pictures of a chapter's opening take.
+_OPENING = Pick(0.7, 6.0)
+
+
+class Step(NamedTuple):
+    """How far a lecture is: the figure at work, how many are `done` of `all`, the share of it, seconds left."""
+
+    name: str
+    done: int
+    all: int
+    share: float
+    left: float
+
+
+class Lecture:
+    """A lecture in a folder: `figures` by name, coarse (`quick`) or full, with a `seed`."""
+
+    def __init__(
+        self, folder: Path, figures: Mapping[str, Figure], *, quick: bool = False, seed: int = 0, single: bool = False
+    ) -> None:
+        """Nothing runs yet."""
+        self.folder, self.figures = Folder(folder), figures
+        self.quick, self.seed, self.single = quick, seed, single
+        self._speed = 1.0
+
+    # ---- what there is to do ----
+
+    def waiting(self) -> list[str]:
+        """Names of openings (`chapter-1`) and figures that are not finished."""
+        openings = [_opening(c) for c in CHAPTERS if any(f.chapter == c.number for f in self.figures.values())]
+        return [name for name in (*openings, *self.figures) if not self.folder.kept(name, self._key(name))]
+
+    def seconds(self, names: Sequence[str]) -> float:
+        """How long these will take: what is stated on two cores, at the speed that this run has had so far."""
+        return self._speed * sum(self._stated(name) for name in names)
+
+    def _stated(self, name: str) -> float:
+        cost = self.figures[name].seconds if name in self.figures else _OPENING
+        return float(cost.quick if self.quick else cost.full)
+
+    def _key(self, name: str) -> str:
+        return key(name, self.quick, self.seed)
+
+    # ---- doing it ----
+
+    def run(
+        self,
+        step: Callable[[Step], object] = lambda at: None,
+        finished: Callable[[Mapping[str, Any]], object] = lambda result: None,
+    ) -> None:
+        """Runs what is waiting, in order; after each the page is written anew. `finished` gets what a figure found."""
+        waiting = self.waiting()
+        stated = took = 0.0
+        for n, name in enumerate(waiting):
+            rest = waiting[n + 1 :]
+
+            def report(share: float, name: str = name, n: int = n, rest: list[str] = rest) -> None:
+                left = self.seconds(rest) + (1 - share) * self.seconds([name])
+                step(Step(name, n, len(waiting), share, left))
+
+            report(0.0)
+            result = self._one(name, report)
+            stated, took = stated + self._stated(name), took + result["seconds"]
+            self._speed = took / stated
+            self.write()
+            finished(result)
+        self.write()
+
+    def _one(self, name: str, report: Callable[[float], object]) -> dict[str, Any]:
+        with self.folder.beside() as beside:
+            began = time.perf_counter()
+            run = Run(name, beside, quick=self.quick, seed=self.seed, report=report)
+            if name in self.figures:
+                result = examine(self.figures[name], run)
+            else:
+                result = open_chapter(next(c for c in CHAPTERS if _opening(c) == name), run)
+            result |= {"key": self._key(name), "seconds": time.perf_counter() - began}
+            self.folder.finish(beside, result)
+        return result
+
+    # ---- the page ----
+
+    def write(self) -> None:
+        """Writes index.html and lecture.json with everything that is finished in the folder."""
+        found = [result for name in catalog.ordered() if (result := self.folder.kept(name))]
+        chapters = []
+        for chapter in CHAPTERS:
+            inside = [result for result in found if result["chapter"] == chapter.number]
+            opening = self.folder.kept(_opening(chapter))
+            if inside:
+                pictures = opening["stage"] if opening else []
+                chapters.append({**_words(chapter), "pictures": pictures, "figures": inside})
+        data = {"antumbra": __version__, "figures": [_numbers(result) for result in found]}
+        self.folder.write("lecture.json", json.dumps(data, ensure_ascii=False, indent=1) + "\n")
+        contents, foot = self._contents(found), _foot(found)
+        text = (
+            page.single(chapters, contents, data, foot, self.folder.path)
+            if self.single
+            else page.html(chapters, contents, data, foot)
+        )
+        self.folder.write("index.html", text)
+
+    def _contents(self, found: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
+        here = {result["name"] for result in found}
+        return [
+            {
+                "number": chapter.number,
+                "title": chapter.title,
+                "figures": [
+                    {"number": each.number, "name": name, "here": name in here}
+                    for name, each in catalog.ordered().items()
+                    if each.chapter == chapter.number
+                ],
+            }
+            for chapter in CHAPTERS
+        ]
+
+
+def examine(figure: Figure, run: Run) -> dict[str, Any]:
+    """Renders and measures a figure; what it found, as plain data for `kept/` and the page."""
+    run.render(list(figure.variants))
+    measured = figure.measure(run)
+    stage = plain(figure.stage(run, measured))
+    for source in figure.exr or [variant.key for variant in figure.variants[:1]]:
+        run.exr(source, "" if len(figure.exr) < 2 else source)
+    claims = [
+        {
+            "text": claim.text.format(**measured),
+            "verdict": verdict(claim, measured),
+            "measured": (claim.measured or "measured {" + claim.of + "}").format(**measured),
+            "of": claim.of,
+            "main": claim.main,
+        }
+        for claim in figure.claims
+    ]
+    return {
+        "name": run.name,
+        "number": figure.number,
+        "chapter": figure.chapter,
+        "title": figure.title,
+        "question": asdict(figure.question),
+        "stage": stage,
+        "answer": _answer(figure, measured),
+        "equation": asdict(figure.equation),
+        "claims": claims,
+        "numbers": {name: quantity.facts() for name, quantity in measured.items()},
+        "command": f"antumbra lecture {run.name} -o lecture" + (" --quick" if run.quick else ""),
+        "exr": [file for file in run.files if file.startswith("exr/")],
+        "quick": run.quick,
+        "seed": run.seed,
+        "rays": run.rays,
+        "files": run.files,
+    }
+
+
+def open_chapter(chapter: Chapter, run: Run) -> dict[str, Any]:
+    """Renders the pictures that open a chapter, exposed alike."""
+    variants = [variant for variant, _, _ in chapter.pictures]
+    run.render(variants)
+    white = run.white(*(variant.key for variant in variants))
+    stage: list[Picture] = [
+        run.picture(variant.key, alt, caption, white=white) for variant, alt, caption in chapter.pictures
+    ]
+    return {"name": run.name, "stage": plain(stage), "rays": run.rays, "files": run.files}
+
+
+def _answer(figure: Figure, measured: Mapping[str, Quantity]) -> dict[str, str]:
+    quantity = measured[figure.answer.of]
+    value, error = quantity.number(figure.answer.digits)
+    return {
+        "value": f"{figure.answer.before}{value}",
+        "error": error,
+        "unit": quantity.unit,
+        "text": figure.answer.text.format(**measured),
+    }
+
+
+def _opening(chapter: Chapter) -> str:
+    return f"chapter-{chapter.number}"
+
+
+def _words(chapter: Chapter) -> dict[str, Any]:
+    return {
+        "number": chapter.number,
+        "title": chapter.title,
+        "short": chapter.short,
+        "paragraphs": chapter.paragraphs,
+        "equation": asdict(chapter.equation),
+    }
+
+
+def _numbers(result: Mapping[str, Any]) -> dict[str, Any]:
+    """What lecture.json says of a figure."""
+    kept = ("name", "number", "chapter", "title", "numbers", "claims", "quick", "seed", "seconds", "rays", "exr")
+    return {name: result[name] for name in kept}
+
+
+def _foot(found: Sequence[Mapping[str, Any]]) -> str:
+    rays = sum(result["rays"] for result in found)
+    coarse = sum(result["quick"] for result in found)
+    size = "" if not coarse else " Coarse pictures and numbers (--quick)." if coarse == len(found) else (
+        f" {coarse} of {len(found)} figures are coarse (--quick)."
+    )
+    return (
+        f"antumbra {__version__}. All pictures and numbers come from {rays:,} rays of the renderer; "
+        f"± is half of a 95 % interval.{size}"
+    )

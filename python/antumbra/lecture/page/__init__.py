@@ -1,0 +1,129 @@
+"""The page: what the figures found, as HTML that needs no network. `html` makes it, `head` says what stands on top."""
+
+from __future__ import annotations
+
+import base64
+import json
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from antumbra import __version__
+
+_HERE = Path(__file__).parent
+HEAD = {
+    "title": "Direct illumination",
+    "idea": "A point is as bright as the part of the light that it can see, weighted by angle and distance. We find "
+    "out by trying segments to the light, and every figure says how far its answer can be trusted.",
+    "phases": "One disk under one light, the receiver moved away step by step: the umbra shrinks, closes, and the "
+    "antumbra opens (figure 2).",
+}
+# A page of one file stays below this many bytes.
+LARGEST = 25_000_000
+
+
+def html(chapters: Sequence[Mapping[str, Any]], contents: Sequence[Mapping[str, Any]], data: Any, foot: str) -> str:
+    """The page whose pictures lie beside it.
+
+    `chapters`: openings (number, title, short, paragraphs, equation, pictures, figures), `contents`: the whole lecture,
+    `data`: what stands in the page as JSON.
+    """
+    return _render(chapters, contents, data, foot, single=False, src=lambda file: file)
+
+
+def single(
+    chapters: Sequence[Mapping[str, Any]], contents: Sequence[Mapping[str, Any]], data: Any, foot: str, folder: Path
+) -> str:
+    """The same as one file: pictures of `folder` are inside, made smaller until it is below `LARGEST`."""
+    from antumbra.lecture import pictures
+
+    factor = 1.0
+    while True:
+
+        def inside(file: str, factor: float = factor) -> str:
+            png = (folder / file).read_bytes()
+            png = png if factor == 1.0 else pictures.smaller(png, factor)
+            return "data:image/png;base64," + base64.b64encode(png).decode()
+
+        page = _render(chapters, contents, data, foot, single=True, src=inside)
+        if len(page.encode()) <= LARGEST or factor < 0.1:
+            return page
+        factor *= 0.8
+
+
+def _render(
+    chapters: Sequence[Mapping[str, Any]],
+    contents: Sequence[Mapping[str, Any]],
+    data: Any,
+    foot: str,
+    *,
+    single: bool,
+    src: Callable[[str], str],
+) -> str:
+    import jinja2
+    from markupsafe import Markup
+
+    from antumbra.lecture.page.math import mathml
+
+    templates = jinja2.Environment(
+        loader=jinja2.FileSystemLoader(_HERE), autoescape=True, undefined=jinja2.StrictUndefined
+    )
+    templates.globals |= {
+        "part": lambda p, figure="": Markup(
+            templates.get_template(f"stages/{p['kind']}.html").render(p=p, figure=figure)
+        ),
+        "src": src,
+        "math": lambda latex, spoken: Markup(mathml(latex, spoken)),
+        "columns": columns,
+        "aspect": aspect,
+        "printed": printed,
+        "single": single,
+    }
+    # `</` would end the script element that holds the numbers.
+    numbers = Markup(json.dumps(data, ensure_ascii=False).replace("</", "<\\/"))
+    return templates.get_template("index.html").render(
+        version=__version__,
+        head=HEAD,
+        chapters=chapters,
+        contents=contents,
+        phases=_phases(chapters),
+        foot=foot,
+        data=numbers,
+        css=Markup((_HERE / "page.css").read_text(encoding="utf-8")),
+        js=Markup((_HERE / "page.js").read_text(encoding="utf-8")),
+    )
+
+
+def columns(cells: Sequence[Mapping[str, Any]]) -> str:
+    """Widths of columns that make all cells equally high."""
+    return " ".join(f"minmax(0,{1000 * cell['width'] / cell['height']:.0f}fr)" for cell in cells)
+
+
+def aspect(cells: Sequence[Mapping[str, Any]], at_most: int = 99) -> str:
+    """Width over height of equally high cells, at most so many in a row."""
+    ratios = [cell["width"] / cell["height"] for cell in cells]
+    if len(ratios) <= at_most:
+        return f"{sum(ratios):.4g}"
+    rows = -(-len(ratios) // at_most)
+    return f"{at_most * max(ratios) / rows:.4g}"
+
+
+def printed(frames: int, start: int, at_most: int = 6) -> set[int]:
+    """Which frames of a slider are printed: evenly spread, with the first, the last and that at the start."""
+    if frames <= at_most:
+        return set(range(frames))
+    chosen = {round(i * (frames - 1) / (at_most - 1)) for i in range(at_most)}
+    if start not in chosen:
+        chosen.remove(min(chosen - {0, frames - 1}, key=lambda i: abs(i - start)))
+    return chosen | {start}
+
+
+def _phases(chapters: Sequence[Mapping[str, Any]]) -> list[Any]:
+    """The row of real pictures on top: ten frames of the receiver that moves away, where they are there."""
+    for chapter in chapters:
+        for figure in chapter["figures"]:
+            for part in figure["stage"] if figure["name"] == "regions" else ():
+                if part["kind"] == "strip":
+                    pictures = [frame["pictures"][-1] for frame in part["frames"]]
+                    return pictures[:: max(1, len(pictures) // 10)][:10]
+    return []

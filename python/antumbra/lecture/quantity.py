@@ -1,0 +1,77 @@
+"""A measured number with its uncertainty, and how it is written."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import asdict, dataclass
+from typing import Any
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """`value` ± `error`, half of its 95 % interval (0: exact); `unit` "%" writes a share as per cent.
+
+    In the sentences of a figure `{name}` writes the error with two digits, `{name:1}` with one, `{name:v}` without it.
+
+    >>> f"{Quantity(3.999, 0.014)} {Quantity(3.999, 0.014):1} {Quantity(0.5, unit='%'):v}"
+    '3.999 ± 0.014 4.00 ± 0.01 50 %'
+    """
+
+    value: float
+    error: float = 0.0
+    unit: str = ""
+    note: str = ""
+
+    @property
+    def interval(self) -> tuple[float, float]:
+        """The ends of its 95 % interval."""
+        return self.value - self.error, self.value + self.error
+
+    def number(self, digits: int = 2) -> tuple[str, str]:
+        """The value and its error as text, the error in so many digits; "" for no error."""
+        scale = 100.0 if self.unit == "%" else 1.0
+        value, error = scale * self.value, scale * self.error
+        if not error > 0 or not math.isfinite(error):
+            return written(value), ""
+        # A value far below its own error needs no more digits than the error has.
+        places = max(0, digits - 1 - math.floor(math.log10(float(f"{error:.{digits - 1}e}"))))
+        return minus(f"{value:,.{places}f}"), f"{error:,.{places}f}"
+
+    def __format__(self, spec: str) -> str:
+        """`value ± error unit`; spec "1", "2": digits of the error, "v": the value alone."""
+        digits = int(spec) if spec.isdigit() else 2
+        value, error = self.number(digits)
+        if spec == "v":
+            value, error = (value if error else written((100 if self.unit == "%" else 1) * self.value)), ""
+        tail = f" {self.unit}" if self.unit else ""
+        return f"{value} ± {error}{tail}" if error else f"{value}{tail}"
+
+    def __str__(self) -> str:
+        """The same with two digits of the error."""
+        return format(self, "")
+
+    def facts(self) -> dict[str, Any]:
+        """For JSON: its fields and its text."""
+        return {**asdict(self), "text": str(self)}
+
+
+def minus(text: str) -> str:
+    """The same number with a minus sign in place of a hyphen; −0 is 0."""
+    if text.startswith("-") and not text.strip("-0.,"):
+        text = text[1:]
+    return text.replace("-", "−")
+
+
+def written(x: float, digits: int = 3) -> str:
+    """A number in so many significant digits, as people write it: 0.041, 4, 12.5, 1,230, 3.2 × 10⁻⁶."""
+    if x == 0 or not math.isfinite(x):
+        return "0" if x == 0 else minus(str(x))
+    if not 1e-4 <= abs(x) < 1e6:
+        mantissa, power = f"{x:.{digits - 1}e}".split("e")
+        return f"{minus(mantissa)} × 10{str(int(power)).translate(_RAISED)}"
+    places = max(0, digits - 1 - math.floor(math.log10(abs(float(f"{x:.{digits - 1}e}")))))
+    text = f"{x:,.{places}f}"
+    return minus(text.rstrip("0").rstrip(".") if "." in text else text)
+
+
+_RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")

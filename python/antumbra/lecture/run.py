@@ -1,0 +1,173 @@
+"""What a figure's functions are given: its rendered pictures, and a place to put new ones. `Run`."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from antumbra import _core
+from antumbra.lecture import pictures
+from antumbra.lecture.figure import Pick, Variant
+from antumbra.lecture.stages import Picture
+
+if TYPE_CHECKING:
+    from antumbra.image import Image
+    from antumbra.scene import Progress, Scene
+
+# Replicates of one seed of the lecture get seeds of their own below this number.
+_SEEDS = 4096
+
+
+class Run:
+    """One run of one figure, coarse (`quick`) or full, with a `seed`; files go below `folder`."""
+
+    def __init__(
+        self,
+        name: str,
+        folder: Path,
+        *,
+        quick: bool,
+        seed: int = 0,
+        report: Callable[[float], object] = lambda share: None,
+    ) -> None:
+        """`report` is called with the share that is done, 0 to 1."""
+        self.name, self.folder, self.quick, self.seed, self.report = name, folder, quick, seed, report
+        self.files: list[str] = []
+        self.rays = 0
+        self._images: dict[str, list[Image]] = {}
+        self._scenes: dict[Callable[[], Scene], Scene] = {}
+
+    def pick(self, value: Any) -> Any:
+        """The value itself, or the part of a `Pick` that this run takes."""
+        return (value.quick if self.quick else value.full) if isinstance(value, Pick) else value
+
+    # ---- rendering ----
+
+    def render(self, variants: list[Variant]) -> None:
+        """Renders all variants with all their replicates."""
+        work = [(variant, n) for variant in variants for n in range(self.pick(variant.replicates))]
+        for done, (variant, n) in enumerate(work):
+
+            def step(state: Progress, done: int = done) -> None:
+                self.report((done + state.done) / len(work))
+
+            self._images.setdefault(variant.key, []).append(self._one(variant, n, step))
+
+    def _one(self, variant: Variant, replicate: int, step: Callable[[Progress], object]) -> Image:
+        options = {name: self.pick(value) for name, value in variant.options.items()}
+        options.setdefault("seed", self.seeded(replicate))
+        image = self.scene(variant.scene).render(progress=step, **options)
+        self.rays += image.rays + image.shadow_rays
+        return image
+
+    def scene(self, build: Callable[[], Scene]) -> Scene:
+        """The scene that a function builds; built once."""
+        if build not in self._scenes:
+            self._scenes[build] = build()
+        return self._scenes[build]
+
+    def seeded(self, replicate: int) -> int:
+        """The seed of a replicate, for queries that a figure makes by itself."""
+        return self.seed * _SEEDS + replicate
+
+    # ---- what was rendered ----
+
+    def image(self, key: str) -> Image:
+        """The picture of a variant (of several replicates the first)."""
+        return self._images[key][0]
+
+    def images(self, key: str) -> list[Image]:
+        """All replicates of a variant."""
+        return self._images[key]
+
+    def pixels(self, key: str) -> NDArray[np.float64]:
+        """Radiance of a variant (H, W, 3), the mean of its replicates."""
+        total: NDArray[np.float64] = np.mean([image.pixels for image in self._images[key]], 0, dtype=np.float64)
+        return total
+
+    def light(self, key: str) -> NDArray[np.float64]:
+        """Luminance of a variant (H, W), the mean of its replicates."""
+        return pictures.luminance(self.pixels(key))
+
+    def aov(self, key: str, name: str) -> NDArray[np.float32]:
+        """What was summed beside a variant's picture, by name."""
+        return self._images[key][0].aov[name]
+
+    def white(self, *keys: str, share: float = 99.0) -> float:
+        """A luminance that `share` % of the pixels of these variants do not exceed: the exposure they have in common."""
+        return float(np.percentile(np.concatenate([self.light(key).ravel() for key in keys]), share)) or 1.0
+
+    # ---- files ----
+
+    def picture(
+        self,
+        source: str | ArrayLike,
+        alt: str,
+        caption: str = "",
+        *,
+        name: str = "",
+        white: float = 0.0,
+        colour: bool = False,
+        tones: int = 64,
+        noise: bool = False,
+    ) -> Picture:
+        """A variant (by key), or radiance (H, W, 3) or (H, W), as a picture of the page.
+
+        `alt` says its result in a sentence; `white`: the luminance shown as white (default: its own 99 %); `colour`
+        keeps colours, else luminance in warm tones; `noise`: its pixels are shown as squares.
+        """
+        if isinstance(source, str):
+            name, source = name or source, self.pixels(source)
+        shown = np.asarray(source)
+        white = white or float(np.percentile(pictures.luminance(shown), 99)) or 1.0
+        png = pictures.colour_png(shown, white, tones) if colour else pictures.tones_png(shown, white, tones)
+        return self._put(name, png, shown, alt, caption, noise)
+
+    def map(
+        self,
+        values: ArrayLike,
+        alt: str,
+        caption: str = "",
+        *,
+        name: str,
+        ramp: str = "blue",
+        low: float = 0.0,
+        high: float = 1.0,
+        noise: bool = False,
+    ) -> Picture:
+        """Numbers (H, W) as a picture along a ramp of `pictures.RAMPS`, from `low` to `high`."""
+        return self._put(name, pictures.ramp_png(values, ramp, low, high), values, alt, caption, noise)
+
+    def classes(
+        self, values: ArrayLike, alt: str, caption: str = "", *, name: str, colours: tuple[str, ...] = pictures.REGIONS
+    ) -> Picture:
+        """Whole numbers (H, W) as a picture, each in its colour; without `colours`: umbra, penumbra, antumbra, lit."""
+        return self._put(name, pictures.classes_png(values, colours), values, alt, caption, True)
+
+    def exr(self, source: str | ArrayLike, name: str = "") -> None:
+        """Keeps full numbers beside the page: a variant with all its layers, or an array (H, W, 3) or (H, W)."""
+        file = f"exr/{self.name}{'-' if name else ''}{name}.exr"
+        self._path(file)
+        if isinstance(source, str):
+            self.image(source).save(self.folder / file)
+        else:
+            array = np.asarray(source, np.float32)
+            array = array if array.ndim == 3 else np.repeat(array[..., None], 3, 2)
+            _core.write_picture(str(self.folder / file), np.ascontiguousarray(array))
+
+    def _put(self, name: str, png: bytes, shown: ArrayLike, alt: str, caption: str, noise: bool) -> Picture:
+        file = f"pictures/{self.name}{'-' if name else ''}{name}.png"
+        self._path(file).write_bytes(png)
+        height, width = np.shape(shown)[:2]
+        return Picture(file, width, height, alt, caption, noise)
+
+    def _path(self, file: str) -> Path:
+        if file not in self.files:
+            self.files.append(file)
+        path = self.folder / file
+        path.parent.mkdir(parents=True, exist_ok=True)
+        return path

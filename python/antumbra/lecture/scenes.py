@@ -1,0 +1,62 @@
+"""Scenes of the figures: the built-in ones, and small ones made for one figure."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import cache, partial
+from typing import Any
+
+import numpy as np
+
+import antumbra as am
+
+SceneOf = Callable[[], am.Scene]
+
+
+@cache
+def builtin(name: str, **parameters: float) -> SceneOf:
+    """A built-in scene with parameters; the same call gives the same function, so that a run builds it once."""
+    return partial(am.builtin, name, **parameters)
+
+
+def square(scene: am.Scene, y: float, half: float, material: Any = None, name: str = "floor") -> None:
+    """Adds a square floor that faces up: height `y`, edges of 2 `half`."""
+    corners = np.array([[-1.0, 0, -1], [1, 0, -1], [1, 0, 1], [-1, 0, 1]]) * half + [0, y, 0]
+    scene.add_mesh(corners, [[0, 2, 1], [0, 3, 2]], material=material, name=name)
+
+
+EYE = (0.0, 3.0, 5.6)
+
+
+@cache
+def slid_ball(scale: float) -> SceneOf:
+    """A ball that lies on the floor at `scale` 1, slid towards `EYE` and made smaller so that it covers the same pixels.
+
+    A second ball stays where it is. The light is a sun, so that moving does not change what arrives unshadowed.
+    """
+
+    def build() -> am.Scene:
+        scene = am.Scene("slid-ball")
+        square(scene, 0.0, 40.0, am.materials.Diffuse(0.6))
+        eye = np.array(EYE)
+        center = eye + scale * (np.array([-0.35, 0.5, 0.0]) - eye)
+        scene.add_shape(am.shapes.Sphere(tuple(center), 0.5 * scale), material=am.materials.Diffuse(0.7), name="ball")
+        scene.add_shape(am.shapes.Sphere((1.15, 0.3, -0.9), 0.3), material=am.materials.Diffuse(0.7), name="still")
+        scene.add_light(am.lights.Sun((-0.75, 1.0, 0.2), half_angle=0.035, radiance=1000.0), name="sun")
+        return scene
+
+    return build
+
+
+@cache
+def disk_over_floor(light: float, occluder: float = 0.2) -> SceneOf:
+    """A disk light of radius `light` at y = 2 over a disk of radius `occluder` at y = 1 over a floor at y = 0 (CF19)."""
+
+    def build() -> am.Scene:
+        scene = am.Scene("disk-over-floor")
+        square(scene, 0.0, 4.0, am.materials.Diffuse(0.5))
+        scene.add_shape(am.shapes.Disk((0.0, 1.0, 0.0), (0.0, 1.0, 0.0), occluder), name="occluder")
+        scene.add_light(am.lights.Disk((0.0, 2.0, 0.0), (0.0, -1.0, 0.0), light, radiance=1.0), name="light")
+        return scene
+
+    return build

@@ -1,0 +1,17 @@
+"""Pictures side by side at one scale, each with its caption."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from antumbra.lecture.stages.base import Drawing, Part, Picture
+
+
+@dataclass(frozen=True)
+class Row(Part):
+    """`pictures` of one height; on a phone and on slides, more than three stand in two rows. `note`: a line under it."""
+
+    kind = "row"
+    pictures: Sequence[Picture | Drawing]
+    note: str = ""

@@ -1,0 +1,51 @@
+"""A slider: a strip of precomputed frames, one of which is seen."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from antumbra.lecture.stages.base import Drawing, Part, Picture
+
+
+@dataclass(frozen=True)
+class Frame(Part):
+    """One position of a slider.
+
+    `value`: as it stands in the address; `says`: the readout, the value and what it means; `more`: added for the ear;
+    `short`: on paper; `drawing` beside the pictures; `facts`: for the entries of a `Key` of the same figure.
+    """
+
+    kind = "frame"
+    value: str
+    says: str
+    pictures: Sequence[Picture]
+    short: str = ""
+    more: str = ""
+    drawing: Drawing | None = None
+    facts: Sequence[str] = ()
+
+
+@dataclass(frozen=True)
+class Strip(Part):
+    """12–16 frames: `key` names the value in the address, `label` the slider, `labels` what stands over the columns.
+
+    `start`: the frame that is seen first; six frames are printed.
+    """
+
+    kind = "strip"
+    key: str
+    label: str
+    frames: Sequence[Frame]
+    start: int = 0
+    labels: Sequence[str] = ()
+    note: str = ""
+
+    def __post_init__(self) -> None:
+        """All frames have the same columns, and the values differ."""
+        if len({(len(f.pictures), f.drawing is None) for f in self.frames}) != 1:
+            raise ValueError(f"{self.key}: the frames have different columns")
+        if len({f.value for f in self.frames}) != len(self.frames):
+            raise ValueError(f"{self.key}: two frames have the same value")
+        if not 0 <= self.start < len(self.frames):
+            raise ValueError(f"{self.key}: there is no frame {self.start}")
