@@ -87,8 +87,20 @@ VERB = Verb(
             is_flag=True,
             help="index.html holds the pictures (at most 25 MB)",
         ),
-        Option("--quick", group="Sampling", is_flag=True, help="coarse pictures and numbers, about two minutes in all"),
-        Option("--seed", group="Sampling", metavar="N", type=click.IntRange(0), default=0, help="another seed, another noise [0]"),
+        Option(
+            "--quick",
+            group="Sampling",
+            is_flag=True,
+            help="coarse pictures and numbers, about two minutes in all",
+        ),
+        Option(
+            "--seed",
+            group="Sampling",
+            metavar="N",
+            type=click.IntRange(0),
+            default=0,
+            help="another seed, another noise [0]",
+        ),
     ],
 )
 VERB.params[0].nargs = -1
@@ -155,7 +167,8 @@ def _line(result: Mapping[str, Any]) -> str:
     answer = result["answer"]
     error = f" ± {answer['error']}" if answer["error"] else ""
     unit = f" {answer['unit']}" if answer["unit"] else ""
-    return f"  {result['name']:<18}{answer['value']}{error}{unit} · {_verdicts([result])} · {_say.seconds(result['seconds'])}"
+    parts = [f"{answer['value']}{error}{unit}", _verdicts([result]), _say.seconds(result["seconds"])]
+    return f"  {result['name']:<18}{' · '.join(parts)}"
 
 
 def _verdicts(results: Sequence[Mapping[str, Any]]) -> str:

@@ -56,7 +56,11 @@ CHAPTERS = (
                 "Pillars on a floor, without shadows: they seem to float.",
                 "V = 1 everywhere",
             ),
-            (_pillars("on"), "The same pillars with soft shadows: all of them stand on the floor.", "V as it is"),
+            (
+                _pillars("on"),
+                "The same pillars with soft shadows: all of them stand on the floor.",
+                "V as it is",
+            ),
         ),
     ),
     Chapter(
@@ -69,14 +73,20 @@ CHAPTERS = (
             "Strictly between is the difficult part. What lies behind the light must not count, and the surface that "
             "the ray starts from must not either. Both are easily got wrong, and both are seen at once.",
         ),
-        equation=Equation((SEGMENT,), "Marked: both ends are left out. p lies on the receiver, p′ on the light."),
+        equation=Equation(
+            (SEGMENT,), "Marked: both ends are left out. p lies on the receiver, p′ on the light."
+        ),
         pictures=(
             (
                 _pillars("self", self_intersection="none", sampler="random"),
                 "Shadow rays that start at the rounded point: the floor shadows itself in patches.",
                 "ends counted",
             ),
-            (_pillars("right"), "The same picture with the ends left out: clean shadows.", "strictly between"),
+            (
+                _pillars("right"),
+                "The same picture with the ends left out: clean shadows.",
+                "strictly between",
+            ),
         ),
     ),
     Chapter(
@@ -89,10 +99,14 @@ CHAPTERS = (
             "As estimators they are far apart. A random direction may miss the light, a random point of the light may "
             "be hidden. Which is worse depends on how much of the sky the light fills.",
         ),
-        equation=Equation((HEMISPHERE,), "Marked: what a direction brings, and what it is as a piece of the light."),
+        equation=Equation(
+            (HEMISPHERE,), "Marked: what a direction brings, and what it is as a piece of the light."
+        ),
         pictures=(
             (
-                _pillars("hemisphere", estimator="hemisphere", viewing_rays=1, shadow_rays=16, sampler="random"),
+                _pillars(
+                    "hemisphere", estimator="hemisphere", viewing_rays=1, shadow_rays=16, sampler="random"
+                ),
                 "Sixteen random directions a pixel: black with a few bright dots, where one met the light.",
                 "16 directions",
             ),
@@ -113,7 +127,9 @@ CHAPTERS = (
             "Noise can be seen and measured. A wrong density cannot be seen: the picture is clean, and false. So each "
             "estimator here is held against another one that must agree.",
         ),
-        equation=Equation((SUM,), "Marked: one shadow ray. The density in which points are drawn divides it out again."),
+        equation=Equation(
+            (SUM,), "Marked: one shadow ray. The density in which points are drawn divides it out again."
+        ),
         pictures=(
             (
                 Variant("one", builtin("pillars"), {**_ONE_RAY, "estimator": "area", "shadow_rays": 1}),

@@ -79,9 +79,9 @@ class Number:
 class Claim:
     """A sentence that the quantity `of` supports or does not: it is `near` ± `within`, `below` or `above` a bound.
 
-    A bound is a number or the name of another quantity. Supported where the whole 95 % interval agrees, undecided where
-    the interval holds both answers. `measured`: what stands under it, with `{quantity}`. The `main` claim of a figure is
-    its test and holds at the coarse size.
+    A bound is a number or the name of another quantity. Supported where the whole 95 % interval agrees, undecided
+    where the interval holds both answers. `measured`: what stands under it, with `{quantity}`. The `main` claim of a
+    figure is its test and holds at the coarse size.
     """
 
     text: str

@@ -1,4 +1,4 @@
-"""Finished figures are kept: what is written appears whole, and is used again as long as nothing that made it changed."""
+"""Finished figures are kept: written whole, and used again as long as nothing that made them changed."""
 
 from __future__ import annotations
 
@@ -49,7 +49,9 @@ class Folder:
     def kept(self, name: str, key: str = "") -> dict[str, Any] | None:
         """What a figure found, if it is finished and its files are still there (and of this key, if one is given)."""
         try:
-            found: dict[str, Any] = json.loads((self.path / "kept" / f"{name}.json").read_text(encoding="utf-8"))
+            found: dict[str, Any] = json.loads(
+                (self.path / "kept" / f"{name}.json").read_text(encoding="utf-8")
+            )
         except (OSError, ValueError):
             return None
         whole = found.get("form") == FORM and all((self.path / file).is_file() for file in found["files"])

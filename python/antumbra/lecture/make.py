@@ -37,7 +37,13 @@ class Lecture:
     """A lecture in a folder: `figures` by name, coarse (`quick`) or full, with a `seed`."""
 
     def __init__(
-        self, folder: Path, figures: Mapping[str, Figure], *, quick: bool = False, seed: int = 0, single: bool = False
+        self,
+        folder: Path,
+        figures: Mapping[str, Figure],
+        *,
+        quick: bool = False,
+        seed: int = 0,
+        single: bool = False,
     ) -> None:
         """Nothing runs yet."""
         self.folder, self.figures = Folder(folder), figures
@@ -48,7 +54,9 @@ class Lecture:
 
     def waiting(self) -> list[str]:
         """Names of openings (`chapter-1`) and figures that are not finished."""
-        openings = [_opening(c) for c in CHAPTERS if any(f.chapter == c.number for f in self.figures.values())]
+        openings = [
+            _opening(c) for c in CHAPTERS if any(f.chapter == c.number for f in self.figures.values())
+        ]
         return [name for name in (*openings, *self.figures) if not self.folder.kept(name, self._key(name))]
 
     def seconds(self, names: Sequence[str]) -> float:
@@ -212,15 +220,31 @@ def _words(chapter: Chapter) -> dict[str, Any]:
 
 def _numbers(result: Mapping[str, Any]) -> dict[str, Any]:
     """What lecture.json says of a figure."""
-    kept = ("name", "number", "chapter", "title", "numbers", "claims", "quick", "seed", "seconds", "rays", "exr")
+    kept = (
+        "name",
+        "number",
+        "chapter",
+        "title",
+        "numbers",
+        "claims",
+        "quick",
+        "seed",
+        "seconds",
+        "rays",
+        "exr",
+    )
     return {name: result[name] for name in kept}
 
 
 def _foot(found: Sequence[Mapping[str, Any]]) -> str:
     rays = sum(result["rays"] for result in found)
     coarse = sum(result["quick"] for result in found)
-    size = "" if not coarse else " Coarse pictures and numbers (--quick)." if coarse == len(found) else (
-        f" {coarse} of {len(found)} figures are coarse (--quick)."
+    size = (
+        ""
+        if not coarse
+        else " Coarse pictures and numbers (--quick)."
+        if coarse == len(found)
+        else (f" {coarse} of {len(found)} figures are coarse (--quick).")
     )
     return (
         f"antumbra {__version__}. All pictures and numbers come from {rays:,} rays of the renderer; "

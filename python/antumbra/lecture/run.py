@@ -86,7 +86,9 @@ class Run:
 
     def pixels(self, key: str) -> NDArray[np.float64]:
         """Radiance of a variant (H, W, 3), the mean of its replicates."""
-        total: NDArray[np.float64] = np.mean([image.pixels for image in self._images[key]], 0, dtype=np.float64)
+        total: NDArray[np.float64] = np.mean(
+            [image.pixels for image in self._images[key]], 0, dtype=np.float64
+        )
         return total
 
     def light(self, key: str) -> NDArray[np.float64]:
@@ -98,7 +100,7 @@ class Run:
         return self._images[key][0].aov[name]
 
     def white(self, *keys: str, share: float = 99.0) -> float:
-        """A luminance that `share` % of the pixels of these variants do not exceed: the exposure they have in common."""
+        """A luminance that `share` % of the pixels of these variants do not exceed: their common exposure."""
         return float(np.percentile(np.concatenate([self.light(key).ravel() for key in keys]), share)) or 1.0
 
     # ---- files ----
@@ -143,7 +145,13 @@ class Run:
         return self._put(name, pictures.ramp_png(values, ramp, low, high), values, alt, caption, noise)
 
     def classes(
-        self, values: ArrayLike, alt: str, caption: str = "", *, name: str, colours: tuple[str, ...] = pictures.REGIONS
+        self,
+        values: ArrayLike,
+        alt: str,
+        caption: str = "",
+        *,
+        name: str,
+        colours: tuple[str, ...] = pictures.REGIONS,
     ) -> Picture:
         """Whole numbers (H, W) as a picture, each in its colour; without `colours`: umbra, penumbra, antumbra, lit."""
         return self._put(name, pictures.classes_png(values, colours), values, alt, caption, True)

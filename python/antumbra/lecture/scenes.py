@@ -30,7 +30,7 @@ EYE = (0.0, 3.0, 5.6)
 
 @cache
 def slid_ball(scale: float) -> SceneOf:
-    """A ball that lies on the floor at `scale` 1, slid towards `EYE` and made smaller so that it covers the same pixels.
+    """A ball on the floor at `scale` 1, slid towards `EYE` and made smaller so that it covers the same pixels.
 
     A second ball stays where it is. The light is a sun, so that moving does not change what arrives unshadowed.
     """
@@ -40,8 +40,12 @@ def slid_ball(scale: float) -> SceneOf:
         square(scene, 0.0, 40.0, am.materials.Diffuse(0.6))
         eye = np.array(EYE)
         center = eye + scale * (np.array([-0.35, 0.5, 0.0]) - eye)
-        scene.add_shape(am.shapes.Sphere(tuple(center), 0.5 * scale), material=am.materials.Diffuse(0.7), name="ball")
-        scene.add_shape(am.shapes.Sphere((1.15, 0.3, -0.9), 0.3), material=am.materials.Diffuse(0.7), name="still")
+        scene.add_shape(
+            am.shapes.Sphere(tuple(center), 0.5 * scale), material=am.materials.Diffuse(0.7), name="ball"
+        )
+        scene.add_shape(
+            am.shapes.Sphere((1.15, 0.3, -0.9), 0.3), material=am.materials.Diffuse(0.7), name="still"
+        )
         scene.add_light(am.lights.Sun((-0.75, 1.0, 0.2), half_angle=0.035, radiance=1000.0), name="sun")
         return scene
 
@@ -50,7 +54,7 @@ def slid_ball(scale: float) -> SceneOf:
 
 @cache
 def disk_over_floor(light: float, occluder: float = 0.2) -> SceneOf:
-    """A disk light of radius `light` at y = 2 over a disk of radius `occluder` at y = 1 over a floor at y = 0 (CF19)."""
+    """A disk of light of radius `light` at y = 2, a disk of radius `occluder` at y = 1, a floor at y = 0."""
 
     def build() -> am.Scene:
         scene = am.Scene("disk-over-floor")

@@ -1,82 +1,93 @@
 """Figure 4: visibility and intensity are both needed, and their product is not the shadow."""
 
+from __future__ import annotations
+
+from collections.abc import Mapping
+
 import numpy as np
 
 from antumbra.lecture.figure import Claim, Equation, Figure, Number, Pick, Question, Variant
 from antumbra.lecture.measures.points import fraction_at, irradiance_at
 from antumbra.lecture.measures.ratio import excess, ratio, times
+from antumbra.lecture.quantity import Quantity
+from antumbra.lecture.run import Run
 from antumbra.lecture.scenes import disk_over_floor
 from antumbra.lecture.stages import Frame, Strip
 
 RADII = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.75, 0.9, 1.1, 1.3, 1.6, 2.0]
-AT = (0.3, 0.0, 0.0)
-# CF19a, b: what the closed forms say of a light of radius 0.5 over the point `AT`.
-VISIBLE, TRUE = 0.5376215, 0.0994152
+INSIDE, OUTSIDE = (0.3, 0.0, 0.0), (0.95, 0.0, 0.0)
+# What closed forms say of R = 0.5 at x = 0.3: the lens of two disks, and the boundary integral of what is seen.
+VISIBLE, TRUE, PRODUCT = 0.5376215, 0.0994152, 0.0955001
 LOOK = {
-    "estimator": "area", "light_points": "area", "viewing_rays": Pick(64, 1024),
-    "aov": "visible-fraction,unshadowed-direct", "size": Pick((112, 112), (440, 440)),
+    "estimator": "area", "light_points": "area", "viewing_rays": Pick(64, 1024), "size": Pick((96, 96), (320, 320)),
+    "aov": "visible-fraction,unshadowed-direct",
     "eye": (0.0, 0.98, 0.0), "look_at": (0.0, 0.0, 0.0), "up": (0.0, 0.0, -1.0), "fov": 2 * np.arctan(1.2 / 0.98),
 }  # fmt: skip
 
 
-def parts(run, radius):
-    """Visible fraction, unshadowed light, their product and the true picture."""
-    key = f"r{radius:.2f}"
-    seen, light, true = run.aov(key, "visible-fraction"), run.aov(key, "unshadowed-direct")[..., 0], run.light(key)
-    return seen, light, seen * light, true
+def _measure(run: Run) -> Mapping[str, Quantity]:
+    scene, rays, seed = run.scene(disk_over_floor(0.5)), run.pick(Pick(2**20, 2**24)), run.seeded(1)
 
+    def light(at: tuple[float, ...], seed: int, **options: str) -> Quantity:
+        return irradiance_at(scene, at, rays, seed, light_points="area", **options)
 
-def measure(run):
-    scene, rays, seed = run.scene(disk_over_floor(0.5)), run.pick(Pick(2**21, 2**24)), run.seeded(1)
-    seen = fraction_at(scene, AT, rays, seed)
-    light = irradiance_at(scene, AT, rays, seed + 1, light_points="area", shadows="off")
-    true = irradiance_at(scene, AT, rays, seed + 2, light_points="area")
-    more = ratio(true, times(seen, light))
-    outside = (0.9, 0.0, 0.9)
-    lit = ratio(irradiance_at(scene, outside, rays, seed), irradiance_at(scene, outside, rays, seed + 1, shadows="off"))
+    seen, true = fraction_at(scene, INSIDE, rays, seed), light(INSIDE, seed + 1)
+    more = ratio(true, times(seen, light(INSIDE, seed + 2, shadows="off")))
+    lit = ratio(light(OUTSIDE, seed + 3), light(OUTSIDE, seed + 4, shadows="off"))
     return {"seen": seen, "true": true, "more": excess(more), "lit": excess(lit)}
 
 
-def stage(run, measured):
+def _stage(run: Run, measured: Mapping[str, Quantity]) -> list[Strip]:
     frames = []
     for radius in RADII:
-        seen, light, product, true = parts(run, radius)
-        off = np.where(product > 0.02 * light.max(), true / np.maximum(product, 1e-12) - 1, 0.0)
-        low, high, white, name = off.min(), off.max(), light.max(), f"r{radius:.2f}"
-        span = f"{100 * low:+.0f} … {100 * high:+.0f} %".replace("-", "−")
+        key = f"r{radius:.2f}"
+        seen, light, true = (
+            run.aov(key, "visible-fraction"),
+            run.aov(key, "unshadowed-direct"),
+            run.pixels(key),
+        )
+        product, white = seen[..., None] * light, float(light.max())
+        off = np.where(product > 0.02 * white, true / np.maximum(product, 1e-9) - 1, 0.0).mean(2)
+        span = f"{100 * np.quantile(off, 0.01):+.0f} to {100 * np.quantile(off, 0.99):+.0f} %".replace(
+            "-", "−"
+        )
         pictures = [
-            run.map(seen, f"Visible fraction, {seen.min():.2f} to 1.", name=f"{name}-seen"),
-            run.picture(light, "Unshadowed light: brightest in the middle.", name=f"{name}-light", white=white),
-            run.picture(product, "Their product: a shadow.", name=f"{name}-product", white=white),
-            run.picture(true, "The true picture: a shadow of another shape.", name=f"{name}-true", white=white),
-            run.map(off, f"True over product, less 1: {span}.", name=f"{name}-off", ramp="signed", low=-0.15, high=0.15),
-        ]
-        frames.append(Frame(f"{radius:g}", f"R = {radius:g}: product off by {span}", pictures, short=f"R = {radius:g}"))
-    labels = ("V, visible fraction", "E, unshadowed", "V · E", "true", "true / product − 1, ±15 %")
-    return [Strip("R", "Radius R of the light, 2 over the floor; the occluder has 0.2 and hangs between", frames, 8, labels)]
+            run.map(seen, f"Visible fraction, from {seen.min():.2f} to 1.", name=f"{key}-seen"),
+            run.picture(light, "Unshadowed light, brightest in the middle.", name=f"{key}-light", white=white),
+            run.picture(product, "The product: a shadow.", name=f"{key}-product", white=white),
+            run.picture(true, "The true picture: a shadow of another shape.", name=f"{key}-true", white=white),
+            run.map(off, f"True over product less 1: {span}.", name=f"{key}-off", ramp="signed", low=-0.15, high=0.15),
+        ]  # fmt: skip
+        frames.append(
+            Frame(f"{radius:g}", f"R = {radius:g}: off by {span}", pictures, short=f"R = {radius:g}")
+        )
+    label = "Radius R of the light, 2 above the floor; the occluder, of radius 0.2, hangs halfway"
+    return [Strip("R", label, frames, 4, ("V, share seen", "E, unshadowed", "V · E", "true", "true / (V · E) − 1"),
+        note="The last map is white where both agree, orange where there is more light than V · E, blue where less; full colour at 15 %.")]  # fmt: skip
 
 
 FIGURE = Figure(
-    number=4, chapter=1, title="Visibility times intensity", seconds=Pick(7, 120),
+    number=4, chapter=1, title="Visibility times intensity", seconds=Pick(6, 150),
     question=Question(
-        "The floor sees a part V of the light, and would get E without the occluder. Is V · E the light that it gets?",
-        ("yes, exactly", "no, some per cent off in the penumbra", "no, off everywhere"), 1,
+        "A point of the floor sees the share V of the light, and without the occluder it would get E. Does it get V · E?",
+        ("yes", "some per cent more or less", "less than half of it"), 1,
     ),
     variants=[Variant(f"r{r:.2f}", disk_over_floor(r), LOOK) for r in RADII],
-    measure=measure, stage=stage, exr=["r0.50"],
-    answer=Number("more", "more light than V · E, half a light radius inside of the penumbra (R = 0.5, x = 0.3). The part of the light that "
-        "stays visible there is not its average part: it stands higher and nearer."),
+    measure=_measure, stage=_stage, exr=["r0.50"],
+    answer=Number("more", "So much more than V · E arrives at x = 0.3 under a light of radius 0.5. The half of the light that is "
+        "still seen there is the half with the larger cosines.", before="+"),
     equation=Equation(
-        [(r"\int_{A_L} \mark{V} \, \frac{\cos\theta \, \cos\theta'}{r^2} \, \text{d}A \;\neq\; \frac{1}{A_L}\int_{A_L} \mark{V} \, \text{d}A \, \cdot "
-          r"\int_{A_L} \frac{\cos\theta \, \cos\theta'}{r^2} \, \text{d}A",
+        [(r"\int_{A_L} \mark{V} \, \frac{\cos\theta \, \cos\theta'}{r^2} \, \text{d}A \;\neq\; \frac{1}{A_L}\int_{A_L} \mark{V} \, \text{d}A "
+          r"\, \cdot \int_{A_L} \frac{\cos\theta \, \cos\theta'}{r^2} \, \text{d}A",
           "∫ V cos θ cos θ′ / r² dA ≠ (1/A ∫ V dA) · ∫ cos θ cos θ′ / r² dA")],
-        "Marked: V stands under the integral. It may be taken out only where it is the same for all points of the light.",
+        "Marked: V stands under the integral. It may leave it only where it is the same for all points of the light.",
     ),
     claims=[
-        Claim("At x = 0.3 the true light is 4.1 % above the product.", "more", near=TRUE / 0.0955 - 1, within=0.004, main=True,
-              measured="{more} (closed form 4.1 %)"),
-        Claim("The visible fraction is that of two overlapping disks.", "seen", near=VISIBLE, within=0.003,
-              measured="{seen} (lens formula 0.5376)"),
-        Claim("Where the whole light is seen, the product is right.", "lit", near=0, within=0.002, measured="off by {lit} outside of the penumbra"),
+        Claim("At x = 0.3 there is 4.1 % more light than V · E.", "more", near=TRUE / PRODUCT - 1, within=0.003, main=True,
+              measured="{more}; the closed form says 4.1 %"),
+        Claim("V is the share that two overlapping disks leave.", "seen", near=VISIBLE, within=0.002,
+              measured="{seen}; the lens formula says 0.5376"),
+        Claim("Where all of the light is seen, the product is right.", "lit", near=0.0, within=0.002,
+              measured="{lit} off at x = 0.95"),
     ],
 )  # fmt: skip

@@ -39,7 +39,9 @@ def _stage(run: Run, measured: Mapping[str, Quantity]) -> list[Strip]:
             run.picture(f"off-{scale}", f"Without shadows, the ball at {scale} of its distance: {off:v} of the pixels changed.", white=white),
             run.picture(f"on-{scale}", f"With shadows, the ball at {scale} of its distance: {on:v} of the pixels changed.", white=white),
         ]  # fmt: skip
-        frames.append(Frame(f"{scale}", f"distance {scale}: {off:v} and {on:v} of the pixels changed", pictures))
+        frames.append(
+            Frame(f"{scale}", f"distance {scale}: {off:v} and {on:v} of the pixels changed", pictures)
+        )
     label = "Distance of the left ball from the eye, its size in proportion; at 1 it lies on the floor"
     return [Strip("distance", label, frames, 5, ("V = 1 everywhere", "V as it is"))]
 

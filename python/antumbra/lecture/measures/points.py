@@ -13,7 +13,9 @@ from antumbra.scene import Scene
 UP = (0.0, 1.0, 0.0)
 
 
-def irradiance_at(scene: Scene, point: Any, rays: int, seed: int, normal: Any = UP, **options: Any) -> Quantity:
+def irradiance_at(
+    scene: Scene, point: Any, rays: int, seed: int, normal: Any = UP, **options: Any
+) -> Quantity:
     """Irradiance [W/m²] at a point by 64 independent replicates of `rays` / 64 shadow rays each."""
     points = np.repeat(np.atleast_2d(np.asarray(point, np.float64)), 64, 0)
     found = scene.irradiance(points, normal, shadow_rays=max(1, rays // 64), seed=seed, **options)

@@ -2,21 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
-import numpy as np
+from numpy.typing import ArrayLike
 
 from antumbra.lecture.quantity import Quantity
+from antumbra.study import statistics
+from antumbra.study.statistics import Interval
 
-# Two-sided 95 % points of Student's t for 1, 2, … degrees of freedom.
-_T = (12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228, 2.201, 2.179, 2.160, 2.145, 2.131)
+
+def mean_of(values: ArrayLike, unit: str = "", note: str = "") -> Quantity:
+    """Mean of independent replicates (the first axis) with its 95 % interval (Student's t); of one alone, no error."""
+    return of_interval(statistics.mean(values), unit, note)
 
 
-def mean_of(values: Sequence[float], unit: str = "", note: str = "") -> Quantity:
-    """Mean of independent replicates with its 95 % interval (Student's t)."""
-    found = np.asarray(values, np.float64)
-    n = len(found)
-    if n < 2:
-        return Quantity(float(found.mean()), 0.0, unit, note)
-    t = _T[n - 2] if n - 2 < len(_T) else 1.96 + 2.5 / n
-    return Quantity(float(found.mean()), t * float(found.std(ddof=1)) / n**0.5, unit, note)
+def of_interval(interval: Interval, unit: str = "", note: str = "") -> Quantity:
+    """An interval of `antumbra.study.statistics` as a quantity of the page: ± half of it."""
+    half = interval.half
+    return Quantity(interval.value, half if half < float("inf") else 0.0, unit, note)

@@ -22,7 +22,9 @@ HEAD = {
 LARGEST = 25_000_000
 
 
-def html(chapters: Sequence[Mapping[str, Any]], contents: Sequence[Mapping[str, Any]], data: Any, foot: str) -> str:
+def html(
+    chapters: Sequence[Mapping[str, Any]], contents: Sequence[Mapping[str, Any]], data: Any, foot: str
+) -> str:
     """The page whose pictures lie beside it.
 
     `chapters`: openings (number, title, short, paragraphs, equation, pictures, figures), `contents`: the whole lecture,
@@ -32,7 +34,11 @@ def html(chapters: Sequence[Mapping[str, Any]], contents: Sequence[Mapping[str, 
 
 
 def single(
-    chapters: Sequence[Mapping[str, Any]], contents: Sequence[Mapping[str, Any]], data: Any, foot: str, folder: Path
+    chapters: Sequence[Mapping[str, Any]],
+    contents: Sequence[Mapping[str, Any]],
+    data: Any,
+    foot: str,
+    folder: Path,
 ) -> str:
     """The same as one file: pictures of `folder` are inside, made smaller until it is below `LARGEST`."""
     from antumbra.lecture import pictures

@@ -19,12 +19,15 @@ def mathml(latex: str, spoken: str) -> str:
     inside = re.fullmatch(r"<math[^>]*>(.*)</math>", made, re.DOTALL)
     if inside is None:
         raise ValueError(f"{latex}: no MathML came of it")
-    body = re.sub(rf'<mstyle mathcolor="{_MARK}">(.*?)</mstyle>', r'<mrow class="hl">\1</mrow>', inside[1], flags=re.DOTALL)
+    body = re.sub(
+        rf'<mstyle mathcolor="{_MARK}">(.*?)</mstyle>',
+        r'<mrow class="hl">\1</mrow>',
+        inside[1],
+        flags=re.DOTALL,
+    )
     # A function and its argument, with the space that belongs between them.
     body = re.sub(r"<mi>(cos|sin|tan|ln|log|arccos)</mi>", r"<mi>\1</mi><mo>&#x2061;</mo>", body)
-    return (
-        f'<math aria-label="{escape(spoken)}"><mstyle displaystyle="true">{body}</mstyle></math>'
-    )
+    return f'<math aria-label="{escape(spoken)}"><mstyle displaystyle="true">{body}</mstyle></math>'
 
 
 def _marked(latex: str) -> str:

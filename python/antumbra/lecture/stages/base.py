@@ -9,7 +9,7 @@ from typing import Any, ClassVar
 
 @dataclass(frozen=True)
 class Part:
-    """One part of a stage. `kind` is its template; `data`: it belongs to the numbers, not to the pictures, of a slide."""
+    """One part of a stage. `kind` is its template; `data`: on a slide it comes with the numbers."""
 
     kind: ClassVar[str] = ""
     data: ClassVar[bool] = False

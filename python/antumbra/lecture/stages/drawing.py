@@ -35,7 +35,9 @@ class Sketch:
         """A straight line."""
         return self._path(f"M{_p(a)}L{_p(b)}", colour, width, dash, faint)
 
-    def curve(self, points: Iterable[Point], *, colour: str = INK, width: float = 1, dash: str = "") -> Sketch:
+    def curve(
+        self, points: Iterable[Point], *, colour: str = INK, width: float = 1, dash: str = ""
+    ) -> Sketch:
         """A line through points."""
         return self._path("M" + "L".join(_p(p) for p in points), colour, width, dash, False)
 
@@ -54,7 +56,9 @@ class Sketch:
         """A light seen from its edge, with its rim."""
         return self.line(a, b, colour=RIM, width=width + 3).line(a, b, colour=LIGHT, width=width)
 
-    def text(self, at: Point, words: str, *, anchor: str = "start", fine: bool = False, ink: str = INK) -> Sketch:
+    def text(
+        self, at: Point, words: str, *, anchor: str = "start", fine: bool = False, ink: str = INK
+    ) -> Sketch:
         """A label; `fine`: a second one, which a phone and a slide leave out; `ink` "" follows the theme."""
         kind = ' class="fine"' if fine else ""
         style = f' style="fill:{ink}"' if ink else ""
@@ -64,9 +68,11 @@ class Sketch:
         )
 
     def ray(self, a: Point, b: Point, free: bool) -> Sketch:
-        """A shadow ray over a picture: free, a solid line with a dot; blocked, dashed to a cross where it was stopped."""
+        """A shadow ray over a picture: free, solid to a dot; blocked, dashed to a cross where it was stopped."""
         kind = "f" if free else "b"
-        self._add(f'<path class="ray c" d="M{_p(a)}L{_p(b)}"/><path class="ray {kind}" d="M{_p(a)}L{_p(b)}"/>')
+        self._add(
+            f'<path class="ray c" d="M{_p(a)}L{_p(b)}"/><path class="ray {kind}" d="M{_p(a)}L{_p(b)}"/>'
+        )
         if free:
             return self.circle(b, 4, "#12793a", stroke="#fff")
         x, y = b

@@ -10,10 +10,13 @@ from antumbra.lecture.stages.table import Table
 
 @dataclass(frozen=True)
 class Plot(Part):
-    """`drawing`: axes and curves on a viewBox near 620 × 440; `note` says what the bars mean; `table` holds the numbers."""
+    """`drawing`: axes and curves on a viewBox near 620 × 440, or the `<svg>` of `antumbra.study.plot.error_curves`.
+
+    `note` says what the bars mean; `table` holds the same numbers.
+    """
 
     kind = "plot"
     data = True
-    drawing: Drawing
+    drawing: Drawing | str
     note: str = ""
     table: Table | None = None

@@ -10,7 +10,7 @@ from antumbra.lecture.stages.base import Drawing, Part, Picture
 
 @dataclass(frozen=True)
 class Row(Part):
-    """`pictures` of one height; on a phone and on slides, more than three stand in two rows. `note`: a line under it."""
+    """`pictures` of one height; more than three stand in two rows on a phone and on slides. `note`: a line below."""
 
     kind = "row"
     pictures: Sequence[Picture | Drawing]

@@ -26,6 +26,10 @@ class Table(Part):
 
     def __post_init__(self) -> None:
         """Every row has as many cells as there are columns."""
-        wrong = [row for row in (*self.rows, *([self.foot] if self.foot else [])) if len(row) != len(self.head)]
+        wrong = [
+            row for row in (*self.rows, *([self.foot] if self.foot else [])) if len(row) != len(self.head)
+        ]
         if wrong:
-            raise ValueError(f"{self.caption}: {wrong[0]} has {len(wrong[0])} cells for {len(self.head)} columns")
+            raise ValueError(
+                f"{self.caption}: {wrong[0]} has {len(wrong[0])} cells for {len(self.head)} columns"
+            )

@@ -1,0 +1,63 @@
+"""Numbers as the page writes them, and the three words of a claim."""
+
+from __future__ import annotations
+
+import pytest
+
+from antumbra.lecture.figure import Claim, Figure, Question
+from antumbra.lecture.quantity import Quantity, written
+from antumbra.lecture.verdict import verdict
+
+
+@pytest.mark.parametrize(
+    ("quantity", "spec", "text"),
+    [
+        (Quantity(3.999, 0.014), "", "3.999 ± 0.014"),
+        (Quantity(3.999, 0.014), "1", "4.00 ± 0.01"),
+        (Quantity(-0.4987, 0.0019), "", "−0.4987 ± 0.0019"),
+        (Quantity(0.0353, 0.00013, "%"), "", "3.530 ± 0.013 %"),
+        (Quantity(0.0353, 0.00013, "%"), "v", "3.530 %"),
+        (Quantity(0.0, 0.0, "%"), "", "0 %"),
+        (Quantity(1234.4, 99.6), "1", "1,234 ± 100"),
+        (Quantity(-0.0001, 0.01), "1", "0.00 ± 0.01"),
+        (Quantity(4.0), "", "4"),
+    ],
+)
+def test_a_quantity_is_written_as_far_as_its_error(quantity, spec, text):
+    assert format(quantity, spec) == text
+
+
+def test_numbers_without_error_have_three_digits():
+    assert [written(x) for x in (0.04123, 12.5, 1234.0, 0.0, -3.2e-6, 2.5e7)] == [
+        "0.0412", "12.5", "1,234", "0", "−3.20 × 10⁻⁶", "2.50 × 10⁷",
+    ]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("claim", "value", "error", "word"),
+    [
+        ({"near": 4.0, "within": 0.05}, 3.999, 0.014, "supported"),
+        ({"near": 4.0, "within": 0.05}, 3.96, 0.014, "undecided"),
+        ({"near": 4.0, "within": 0.05}, 3.9, 0.014, "not supported"),
+        ({"below": 1.0}, 0.9, 0.05, "supported"),
+        ({"below": 1.0}, 0.9, 0.2, "undecided"),
+        ({"above": 1.0}, 0.9, 0.05, "not supported"),
+        ({"above": "other"}, 2.5, 0.3, "supported"),
+        ({"above": "other"}, 2.3, 0.3, "undecided"),
+        ({"below": 1.0}, float("nan"), 0.1, "undecided"),
+    ],
+)
+def test_a_claim_is_undecided_where_its_interval_holds_both_answers(claim, value, error, word):
+    measured = {"x": Quantity(value, error), "other": Quantity(2.0, 0.3)}
+    assert verdict(Claim("It is so.", "x", **claim), measured) == word
+
+
+def test_declarations_that_ask_nothing_are_refused():
+    with pytest.raises(ValueError, match="exactly one"):
+        Claim("It is so.", "x", below=1.0, above=0.0)
+    with pytest.raises(ValueError, match="within"):
+        Claim("It is so.", "x", near=1.0)
+    with pytest.raises(ValueError, match="choices"):
+        Question("Which?", ["one"], 0)
+    with pytest.raises(TypeError):
+        Figure(1, 1, "A figure without a question")  # type: ignore[call-arg]
