@@ -1,0 +1,73 @@
+"""A figure that renders in no time and has every kind of stage."""
+
+from __future__ import annotations
+
+from antumbra.lecture.figure import Claim, Equation, Figure, Number, Pick, Question, Variant
+from antumbra.lecture.measures.replicates import mean_of
+from antumbra.lecture.scenes import builtin
+from antumbra.lecture.stages import (
+    Drawing,
+    Entry,
+    Frame,
+    Key,
+    Linked,
+    Panel,
+    Plot,
+    Row,
+    Sketch,
+    Strip,
+    Table,
+    Tabs,
+)
+
+LOOK = {"estimator": "area", "viewing_rays": Pick(1, 2), "size": (24, 16)}
+
+
+def _measure(run):
+    return {"mean": mean_of([image.pixels.mean() for image in run.images("a")])}
+
+
+def _parts(run):
+    """One part of every kind."""
+    picture = run.picture("a", "Pillars, half in shadow.", "as it is", noise=True)
+    drawing = (
+        Sketch(56, 32, ground="var(--lit)").light((4, 8), (4, 24)).text((20, 10), "light").done("A light.")
+    )
+    other = Sketch(56, 32).circle((10, 10), 5, "#15181f").done("A ball.")
+    frames = [
+        Frame(f"{i}", f"i = {i}: <half>", [picture], more=", and more", drawing=d, facts=[f"fact {i}"])
+        for i, d in enumerate([drawing, other, drawing])
+    ]
+    rays = Sketch(24, 16)
+    for row, free in enumerate((True, False)):
+        rays.linked(row, Sketch(24, 16).ray((1, 1), (12 + row, 8), free))
+    table = Table(["ray", "V", "pdf"], [["1", "free", "0.5"], ["2", "blocked", "0.5"]], "Two rays.", fine=[2])
+    axes = Drawing('<g data-s="random"><path class="ln" d="M0 0L9 9"/></g>', 620, 440, "A line.")
+    return [
+        Strip("i", "Which", frames, start=1, labels=("side", "picture")),
+        Key([Entry("var(--umbra)", "Umbra", "none", drawing, 0), Entry("#fff", "Lit", "all", always="outside")], "i"),
+        Row([picture] * 4, note="Four alike."),
+        Tabs("sampler", "Sampler", [Panel(w, w, [Row([picture, picture])]) for w in ("random", "owen")]),
+        Linked("ray", picture, rays.done("Two rays."), table),
+        Plot(axes, "95 %.", Table(["N", "RMSE"], [["1", "1.00"]], "Errors.", foot=["slope", "−0.5"])),
+    ]  # fmt: skip
+
+
+def figure(number: int) -> Figure:
+    """A figure with every kind of stage."""
+    return Figure(
+        number=number,
+        chapter=1,
+        title=f"Made up, {number}",
+        question=Question("What is the mean?", ("small", "large"), 0),
+        variants=[Variant("a", builtin("pillars"), LOOK, replicates=2)],
+        measure=_measure,
+        stage=lambda run, measured: _parts(run),
+        answer=Number("mean", "The mean is {mean}."),
+        equation=Equation([(r"x = \mark{\frac{1}{N}} \sum_{i=1}^N x_i", "x = 1/N sum of x_i")], "Marked: N."),
+        claims=[
+            Claim("It is small.", "mean", below=1e3, main=True),
+            Claim("It is <large>.", "mean", above=1e3),
+        ],
+        seconds=Pick(0.5, 1.0),
+    )

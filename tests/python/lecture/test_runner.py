@@ -1,0 +1,131 @@
+"""The runner: what is finished is kept, used again, never lost; what is wrong is told before anything is rendered."""
+
+from __future__ import annotations
+
+import errno
+import json
+import os
+
+import pytest
+
+from antumbra.lecture import keep, make
+
+
+def files(folder):
+    return {str(p.relative_to(folder)) for p in folder.rglob("*") if p.is_file()}
+
+
+def test_a_lecture_is_a_page_with_its_pictures_and_numbers(two_figures, antumbra, tmp_path):
+    done = antumbra("lecture", "--quick", "-o", "out")
+    assert done.code == 0, done.err
+    assert done.out.startswith("out/index.html   2 figures · claims: 2 supported, 2 not supported · ")
+    assert done.err.splitlines()[0].startswith("  lecture · 2 figures · about ")
+    out = tmp_path / "out"
+    found = json.loads((out / "lecture.json").read_text())
+    assert [f["name"] for f in found["figures"]] == ["one", "two"]
+    one = found["figures"][0]
+    assert one["numbers"]["mean"]["error"] > 0
+    assert [c["verdict"] for c in one["claims"]] == ["supported", "not supported"]
+    assert {"pictures/one-a.png", "exr/one.exr", "pictures/chapter-1-on.png"} <= files(out)
+    assert not [p for p in out.iterdir() if p.name.startswith(".")]
+    page = (out / "index.html").read_text()
+    assert "It is &lt;large&gt;." in page and 'class="xx"' in page
+    assert "http" not in page.replace("http://www.w3.org/2000/svg", "")
+
+
+def test_what_is_finished_is_not_rendered_again(two_figures, antumbra, monkeypatch):
+    assert antumbra("lecture", "--quick", "-o", "out").code == 0
+    calls = []
+    examine = make.examine
+    monkeypatch.setattr(make, "examine", lambda f, run: calls.append(run.name) or examine(f, run))
+    again = antumbra("lecture", "--quick", "-o", "out")
+    assert again.code == 0 and calls == [] and "2 of them finished" in again.err
+    assert antumbra("lecture", "--quick", "--seed", "1", "one", "-o", "out").code == 0
+    assert calls == ["one"]
+    assert antumbra("lecture", "--quick", "--seed", "1", "-o", "out").code == 0
+    assert calls == ["one", "two"]
+
+
+def test_ctrl_c_keeps_what_is_finished_and_goes_on(two_figures, antumbra, tmp_path, monkeypatch):
+    examine = make.examine
+
+    def interrupted(figure, run):
+        if run.name == "two":
+            raise KeyboardInterrupt
+        return examine(figure, run)
+
+    monkeypatch.setattr(make, "examine", interrupted)
+    stopped = antumbra("lecture", "--quick", "-o", "out")
+    assert stopped.code == 130
+    assert stopped.err.splitlines()[-1].startswith("stopped: 1 of 2 figures finished and kept in out")
+    assert 'id="one"' in (tmp_path / "out/index.html").read_text()
+    assert not [f for f in files(tmp_path) if "unfinished" in f]
+    monkeypatch.setattr(make, "examine", examine)
+    assert antumbra("lecture", "--quick", "-o", "out").code == 0
+    assert 'id="two"' in (tmp_path / "out/index.html").read_text()
+
+
+def test_a_full_disk_loses_nothing_that_is_finished(two_figures, antumbra, tmp_path, monkeypatch):
+    examine = make.examine
+
+    def full(figure, run):
+        if run.name == "two":
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+        return examine(figure, run)
+
+    monkeypatch.setattr(make, "examine", full)
+    ended = antumbra("lecture", "--quick", "-o", "out")
+    assert ended.code == 1
+    assert "error: out cannot be written any more (No space left on device)" in ended.err
+    assert "1 of 2 figures are finished and kept" in ended.err
+    assert [f["name"] for f in json.loads((tmp_path / "out/lecture.json").read_text())["figures"]] == ["one"]
+
+
+def test_too_little_room_is_told_before(two_figures, antumbra, monkeypatch):
+    usage = keep.shutil.disk_usage
+    monkeypatch.setattr(keep.shutil, "disk_usage", lambda path: usage(path)._replace(free=1000))
+    ended = antumbra("lecture", "--quick", "-o", "out")
+    assert ended.code == 2
+    assert ended.err == "error: out cannot be written (less than 40 MB are free). Nothing was rendered.\n"
+
+
+def test_an_unknown_figure_suggests_the_nearest(antumbra, tmp_path):
+    ended = antumbra("lecture", "shadow", "-o", "out")
+    assert ended.code == 2
+    assert ended.err.startswith('error: there is no figure "shadow"; did you mean "shadows"? (shadows, ')
+    assert files(tmp_path) == set()
+
+
+def test_a_folder_that_cannot_be_written_is_told_before(two_figures, antumbra, tmp_path):
+    (tmp_path / "file").write_text("")
+    ended = antumbra("lecture", "--quick", "-o", "file/out")
+    assert ended.code == 2
+    assert ended.err == "error: file/out cannot be written (Not a directory). Nothing was rendered.\n"
+
+
+def test_a_single_file_holds_its_pictures(two_figures, antumbra, tmp_path, monkeypatch):
+    assert antumbra("lecture", "--quick", "--single-file", "-o", "out").code == 0
+    whole = (tmp_path / "out/index.html").read_text()
+    assert "pictures/" not in whole and "data:image/png;base64," in whole
+    from antumbra.lecture import page
+
+    monkeypatch.setattr(page, "LARGEST", len(whole.encode()) - 1)
+    assert antumbra("lecture", "--quick", "--single-file", "-o", "out").code == 0
+    assert len((tmp_path / "out/index.html").read_bytes()) < len(whole.encode())
+
+
+def test_a_changed_source_or_a_lost_picture_is_made_anew(two_figures, antumbra, tmp_path, monkeypatch):
+    assert antumbra("lecture", "--quick", "one", "-o", "out").code == 0
+    folder = keep.Folder(tmp_path / "out")
+    key = keep.key("one", True, 0)
+    assert folder.kept("one", key)
+    assert key != keep.key("one", False, 0) != keep.key("one", False, 1)
+    (tmp_path / "out/pictures/one-a.png").unlink()
+    assert folder.kept("one", key) is None
+
+
+@pytest.mark.parametrize("cut", ["", "{", '{"form": 0}'])
+def test_a_record_that_was_cut_short_counts_as_not_finished(tmp_path, cut):
+    (tmp_path / "kept").mkdir()
+    (tmp_path / "kept/one.json").write_text(cut)
+    assert keep.Folder(tmp_path).kept("one") is None
