@@ -20,17 +20,21 @@ from antumbra.messages import Message
 
 if TYPE_CHECKING:
     from antumbra import lights, materials, shapes
+    from antumbra.anatomy import Region
     from antumbra.estimate import Estimate
+    from antumbra.explanation import Explanation
     from antumbra.hit import Hit
     from antumbra.image import Image, load_image
     from antumbra.scene import Scene, builtin, builtins, load
 
 __all__ = [
     "Estimate",
+    "Explanation",
     "Hit",
     "Image",
     "Message",
     "OptionError",
+    "Region",
     "RenderStopped",
     "Scene",
     "SceneError",
@@ -47,8 +51,10 @@ __all__ = [
 # Where each name lives. Imported when first asked for, because `import antumbra` must not wait for NumPy.
 _HOME = {
     "Estimate": "estimate",
+    "Explanation": "explanation",
     "Hit": "hit",
     "Image": "image",
+    "Region": "anatomy",
     "Scene": "scene",
     "builtin": "scene",
     "builtins": "scene",

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from antumbra import _core, settings
 from antumbra._arrays import indices, matching, numbers, per_row, places, rows
 from antumbra._values import Color, Vector, color, vector
+from antumbra.anatomy import Anatomy
 from antumbra.errors import RenderStopped
 from antumbra.estimate import Estimate
 from antumbra.hit import Hit, Receivers
@@ -66,7 +67,7 @@ def builtins() -> dict[str, str]:
     return {name: shows for name, shows, _ in _core.builtins()}
 
 
-class Scene:
+class Scene(Anatomy):
     """What there is to see. An empty one is filled by `add_mesh`, `add_shape` and `add_light`.
 
     >>> import numpy as np, antumbra as am
@@ -198,13 +199,7 @@ class Scene:
 
         Raises ValueError for shapes that do not match and for numbers that are not finite.
         """
-        if (targets is None) == (directions is None):
-            raise ValueError("one of targets and directions is needed")
-        start, count = self._start(origins)
-        if targets is not None:
-            return self._core.occluded(start, matching("targets", targets, "origins", count), None)
-        along = matching("directions", directions, "origins", count)
-        return self._core.occluded(start, along, per_row("max_distance", max_distance, count))
+        return self._core.occluded(*self._segments(origins, targets, directions, max_distance))
 
     def closest_hit(
         self, origins: ArrayLike | Receivers, directions: ArrayLike, max_distance: ArrayLike = np.inf
@@ -282,12 +277,6 @@ class Scene:
         values, errors = getattr(self._core, what)(inside, facing, list(words.items()))
         seconds = time.perf_counter() - began
         return Estimate(values, errors, what.replace("_", " "), int(options["shadow_rays"]), seconds)
-
-    def _start(self, origins: Any) -> tuple[Any, int]:
-        if isinstance(origins, Receivers):
-            return origins._core, len(origins)
-        array = rows("origins", origins)
-        return array, len(array)
 
     # ---- the pieces of an estimator ----
 

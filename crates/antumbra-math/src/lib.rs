@@ -15,6 +15,6 @@ mod transform;
 pub mod warp;
 
 pub use frame::{Frame, Local, World};
-pub use glam::{DMat3, DVec3, Vec2, Vec3};
+pub use glam::{DMat3, DVec2, DVec3, Vec2, Vec3};
 pub use rgb::Rgb;
 pub use transform::Transform;

@@ -16,6 +16,23 @@ pub fn disk(u: [f32; 2]) -> Vec2 {
     Vec2::new(r * real::cosf(phi), r * real::sinf(phi))
 }
 
+/// The numbers that [`disk`] takes to the point (x, y).
+#[inline]
+pub fn disk_inverse([x, y]: [f64; 2]) -> [f64; 2] {
+    const PER_OCTANT: f64 = 4.0 / std::f64::consts::PI;
+    let r = (x * x + y * y).sqrt();
+    let (a, b) = if x.abs() > y.abs() {
+        let a = r.copysign(x);
+        (a, a * PER_OCTANT * real::atan(y / x))
+    } else if y == 0.0 {
+        (0.0, 0.0)
+    } else {
+        let b = r.copysign(y);
+        (b * PER_OCTANT * real::atan(x / y), b)
+    };
+    [0.5 * (a + 1.0), 0.5 * (b + 1.0)]
+}
+
 /// A point of the triangle as the weights of its second and third corner, density 1 / area (Heitz 2019, "A
 /// Low-Distortion Map Between Triangle and Square").
 #[inline]
@@ -27,6 +44,12 @@ pub fn triangle(u: [f32; 2]) -> [f32; 2] {
         let half = 0.5 * u[1];
         [u[0] - half, half]
     }
+}
+
+/// The numbers that [`triangle`] takes to these weights of the second and third corner.
+#[inline]
+pub fn triangle_inverse([b, c]: [f64; 2]) -> [f64; 2] {
+    if c > b { [2.0 * b, b + c] } else { [b + c, 2.0 * c] }
 }
 
 /// A direction about n with density cos θ / π: the disk lifted onto the hemisphere (Malley).
@@ -95,6 +118,20 @@ mod tests {
             // sin²θ / (1 + cos θ) = 1 − cos θ without its cancellation.
             (d.0.x * d.0.x + d.0.y * d.0.y) / (1.0 + d.cos())
         });
+    }
+
+    #[test]
+    fn inverses_lead_back() {
+        for i in 0..N {
+            let u = numbers(i);
+            let d = disk(u);
+            let disk = disk_inverse([f64::from(d.x), f64::from(d.y)]);
+            let triangle = triangle_inverse(triangle(u).map(f64::from));
+            for (back, u) in disk.into_iter().chain(triangle).zip(u.into_iter().chain(u)) {
+                // Single precision of the maps.
+                assert!((back - f64::from(u)).abs() < 1e-6, "{u} → {back}");
+            }
+        }
     }
 
     #[test]

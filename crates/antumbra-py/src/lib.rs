@@ -1,5 +1,6 @@
 //! The Python binding: arrays in, arrays out, the lock released, errors translated; no algorithm. Floor 10.
 
+mod anatomy;
 mod arrays;
 mod ask;
 mod errors;

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use antumbra::light::LightId;
 use antumbra::math::Vec3;
-use antumbra::query::{self, Estimated, RayHit};
+use antumbra::query::{self, Estimated, RayHit, Region};
 use antumbra::render;
 use antumbra::scene::Scene;
 use antumbra::schedule::Flow;
@@ -122,6 +122,29 @@ impl PyScene {
         Ok((first(py, &estimated.values), first(py, &estimated.standard_error)))
     }
 
+    /// 0 umbra, 1 penumbra, 2 antumbra, 3 lit, −1 where the light does not shine, (N,) int8.
+    fn regions<'py>(
+        &self,
+        py: Python<'py>,
+        points: Origins<'_>,
+        normals: Option<Rows<'_>>,
+        light: &str,
+        words: Words,
+    ) -> PyResult<Bound<'py, PyArray1<i8>>> {
+        let settings = settings::parse_query(&words)?;
+        let scene = self.scene(py)?;
+        let number = light_number(&scene, light)?;
+        let (queries, rows, n) = self.gather(&scene, &points, normals.as_ref())?;
+        let mut raised = None;
+        let found =
+            py.detach(|| query::regions(&scene, &queries, number, &settings, &mut |_| look(&mut raised)));
+        if let Some(e) = raised {
+            return Err(e);
+        }
+        let codes: Vec<i8> = found.into_iter().map(Region::code).collect();
+        Ok(spread(&codes, &rows, n, Region::code(None)).into_pyarray(py))
+    }
+
     /// direction, target, distance, radiance, pdf, light: one drawn light point a receiver.
     #[expect(clippy::type_complexity, reason = "a tuple of six arrays, named on the Python side")]
     fn sample_light<'py>(
@@ -190,7 +213,7 @@ impl PyScene {
 
 impl PyScene {
     /// Segments or rays of arrays, relative to the scene's origin.
-    fn batch<'a>(
+    pub fn batch<'a>(
         &self,
         scene: &Arc<Scene>,
         origins: &'a Origins<'_>,
@@ -261,7 +284,7 @@ impl PyScene {
 const RUN: usize = 1 << 19;
 
 /// Answers `out` in runs of `size` without Python's lock: `answer(from, run, wrong, watch)`. Ctrl-C raises KeyboardInterrupt.
-fn in_runs<T: Send>(
+pub fn in_runs<T: Send>(
     py: Python<'_>,
     out: &mut [T],
     size: usize,

@@ -1,5 +1,8 @@
 //! Scene and settings → picture. Floor 8.
 
+mod explain;
+mod maps;
+
 use antumbra_math::{DVec3, Rgb, Vec3};
 
 use crate::estimator::EstimatorKind;
@@ -10,6 +13,8 @@ use crate::scene::{Camera, Level, Message, Projection, Scene, SceneError};
 use crate::schedule::{self, Finished, Flow, Progress};
 use crate::sensor::{CameraSensor, Seen, Tile, View};
 use crate::settings::{Masks, Settings};
+
+pub use explain::{Explained, LightRay, SurfaceMet, ViewingRay, explain};
 
 /// Size of a picture whose scene names none.
 const DEFAULT_SIZE: [u32; 2] = [640, 480];
@@ -79,7 +84,7 @@ pub fn render(
         shadow_rays: settings.shadow_rays,
         bounces: bounces(settings),
         passes: settings.passes_of(settings.viewing_rays),
-        planes: settings.aov,
+        planes: settings.aov.without(Planes::REGIONS),
         light_planes: LightPlanes::new(settings.aov, &scene, settings.options()),
         look: settings.look(),
         seen: seen(settings),
@@ -87,7 +92,33 @@ pub fn render(
         distance_test: settings.distance_test,
     };
     let finished = schedule::run(&job, settings.threads, watch);
-    Ok(picture(&scene, settings, &view, finished, messages))
+    let maps = regions(&scene, settings, (&camera, view), &finished, &mut messages, watch);
+    let mut picture = picture(&scene, settings, &view, finished, messages);
+    picture.aovs.extend(maps);
+    Ok(picture)
+}
+
+/// The maps of regions, if they are asked for and nobody stopped.
+fn regions(
+    scene: &Scene,
+    settings: &Settings,
+    view: (&Camera, View),
+    finished: &Finished,
+    messages: &mut Vec<Message>,
+    watch: &mut dyn FnMut(Progress) -> Flow,
+) -> Vec<maps::Layer> {
+    if !settings.aov.has(Planes::REGIONS) {
+        return Vec::new();
+    }
+    let (passes, passes_done) = (settings.viewing_rays, finished.passes_done);
+    let mut look = || watch(Progress { done: 1, total: 1, passes_done, passes });
+    let asked = passes_done == settings.passes_of(passes).until;
+    let maps = if asked { maps::region_maps(scene, settings, view, messages, &mut look) } else { None };
+    maps.unwrap_or_else(|| {
+        let text = "stopped before the maps of regions were done: they are left out".into();
+        messages.push(Message { level: Level::Warning, place: String::new(), text });
+        Vec::new()
+    })
 }
 
 /// Width and height of the picture that the settings ask for.
@@ -192,7 +223,7 @@ fn picture(scene: &Scene, s: &Settings, view: &View, finished: Finished, message
         assemble(width, height, &finished.tiles, |film, cell| film.standard_error(cell).unwrap_or_default())
     });
     let mut aovs = Vec::new();
-    for (name, which, channels) in s.aov.named() {
+    for (name, which, channels) in s.aov.without(Planes::REGIONS).named() {
         let values = match which {
             Planes::STANDARD_ERROR => {
                 standard_error.clone().unwrap_or_else(|| vec![[f32::NAN; 3]; pixels.len()])

@@ -103,7 +103,8 @@ settings! {
         lights: LightChoice = LightChoice::Auto;
         /// keep only the light of this name (may be repeated)
         light: Vec<String> = Vec::new();
-        /// how a point on a light is drawn: uniform in solid angle, or on its area (pdf = 1/A)
+        /// how a point on a light is drawn: uniform in solid angle, or on its area (pdf = 1/A); for lectures, on flat
+        /// lights: skewed to one side, about the point nearest to the receiver, never in a hole (biased)
         light_points: LightPoints = LightPoints::SolidAngle;
         /// how hemisphere directions are drawn
         directions: Directions = Directions::Bsdf;
@@ -163,6 +164,8 @@ settings! {
         masks: Masks = Masks::File;
         /// pictures beside the main one, by name, joined by commas (EXR)
         aov: Planes = Planes::NONE;
+        /// aov regions: this many points inside each light and as many on its outline
+        region_points: u32 = 64, |n| within(f64::from(*n), 4.0, 65_536.0);
     }
     "Teaching" {
         /// off: nothing blocks
@@ -215,7 +218,7 @@ pub enum Masks {
 choices!(EstimatorKind: Path "path", Area "area", Hemisphere "hemisphere", Surfaces "surfaces", Mis "mis",
     PathHemisphere "path-hemisphere", AmbientOcclusion "ambient-occlusion");
 choices!(LightChoice: Auto "auto", All "all", Uniform "uniform", Power "power", Contribution "contribution");
-choices!(LightPoints: SolidAngle "solid-angle", Area "area");
+choices!(LightPoints: SolidAngle "solid-angle", Area "area", Skewed "skewed", Nearest "nearest", Hole "hole");
 choices!(Directions: Bsdf "bsdf", Cosine "cosine", Uniform "uniform");
 choices!(Falloff: None "none", Linear "linear", Quadratic "quadratic");
 choices!(SamplerKind: Owen "owen", Random "random", Stratified "stratified", Regular "regular");

@@ -19,7 +19,7 @@ const FLOORS: &[(&str, u32)] = &[
     ("settings", 7),
     ("schedule", 8),
     ("query", 9),
-    ("render", 9),
+    ("render", 10),
 ];
 
 /// Which workspace crates a crate may name.

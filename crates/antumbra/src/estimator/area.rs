@@ -1,7 +1,8 @@
 //! The area form over the lights: L = ∫ f_r L_e V cos θ cos θ′ / r² dA, points drawn on the lights. Direct light.
 
 use super::lights::{Lights, sees_lights};
-use super::{Draws, Estimator, Options, Proposals};
+use super::{Drawn, Draws, Estimator, Options, Proposals};
+use crate::light::sampler::Scratch;
 use crate::receiver::Receiver;
 use crate::scene::Scene;
 
@@ -21,6 +22,19 @@ impl Estimator for Area {
     fn propose(&self, scene: &Scene, at: &[Receiver], u: &Draws<'_>, out: &mut Proposals) {
         for at in at.iter().filter(|at| sees_lights(&at.bsdf)) {
             self.lights.propose(scene, at, u, None, out);
+        }
+    }
+
+    fn each_point(
+        &self,
+        scene: &Scene,
+        at: &Receiver,
+        u: &Draws<'_>,
+        scratch: &mut Scratch,
+        visit: &mut dyn FnMut(Drawn),
+    ) {
+        if sees_lights(&at.bsdf) {
+            self.lights.each(scene, at, u, None, scratch, visit);
         }
     }
 

@@ -40,6 +40,25 @@ pub struct Lights {
     opaque: bool,
 }
 
+/// A light point that was drawn, with every factor of what a segment to it carries.
+#[derive(Clone, Copy, Debug)]
+pub struct Drawn {
+    /// Which of the receiver's samples.
+    pub nth: Nth,
+    /// The light.
+    pub light: LightId,
+    /// p(light).
+    pub prob: f32,
+    /// The point; `None` where the light does not shine.
+    pub to: Option<LightSample>,
+    /// f_r(ω_o, ω_i).
+    pub f: Rgb,
+    /// Share against other strategies, times what a mistake adds.
+    pub weight: f32,
+    /// What the segment carries if it is free, N included; black where none is asked.
+    pub carried: Rgb,
+}
+
 impl Lights {
     /// Prepares the choice among the scene's lights.
     pub fn new(scene: &Scene, options: &Options) -> Lights {
@@ -66,57 +85,77 @@ impl Lights {
         other: Option<&dyn Fn(&LightSample) -> f32>,
         out: &mut Proposals,
     ) {
+        let mut weights = std::mem::take(&mut out.light_weights);
+        self.each(scene, at, u, other, &mut weights, |drawn| {
+            if let (Some(to), false) = (&drawn.to, drawn.carried.is_black()) {
+                out.segment(at, drawn.nth.j, to, plane_of(at), drawn.carried);
+            }
+        });
+        out.light_weights = weights;
+    }
+
+    /// Draws the N points (of each light) that `propose` draws, in its order.
+    #[inline]
+    pub fn each(
+        &self,
+        scene: &Scene,
+        at: &Receiver,
+        u: &Draws<'_>,
+        other: Option<&dyn Fn(&LightSample) -> f32>,
+        weights: &mut Scratch,
+        mut visit: impl FnMut(Drawn),
+    ) {
         let n = u.count(at);
         match &self.sampler {
             None => {
                 for light in 0..scene.lights().len() as LightId {
                     for nth in Nth::of(n) {
                         let point = u.pair_for(light, at, Use::LightPoint, nth);
-                        self.shadow_ray(scene, at, (light, 1.0), point, nth, other, out);
+                        visit(self.draw(scene, at, (light, 1.0), point, nth, other));
                     }
                 }
             }
             Some(sampler) => {
-                let mut weights = std::mem::take(&mut out.light_weights);
-                let chooser = sampler.prepare(scene.lights(), at, &mut weights);
+                let chooser = sampler.prepare(scene.lights(), at, weights);
                 for nth in Nth::of(n) {
                     let Some(pick) = chooser.pick(u.one(at, Use::LightChoice, nth)) else { break };
                     let point = u.pair(at, Use::LightPoint, nth);
-                    self.shadow_ray(scene, at, (pick.light, pick.prob), point, nth, other, out);
+                    visit(self.draw(scene, at, (pick.light, pick.prob), point, nth, other));
                 }
-                out.light_weights = weights;
             }
         }
     }
 
     /// L ≈ f_r(ω_o,ω_i) · L_e · cosθ_i / (p(light) · p(ω_i)) / N, short of V.
     #[inline]
-    #[allow(clippy::too_many_arguments)]
-    fn shadow_ray(
+    fn draw(
         &self,
         scene: &Scene,
         at: &Receiver,
         (light, prob): (LightId, f32),
         u: [f32; 2],
-        Nth { j, n }: Nth,
+        nth: Nth,
         other: Option<&dyn Fn(&LightSample) -> f32>,
-        out: &mut Proposals,
-    ) {
-        let Some(s) = scene.lights()[light as usize].sample(at, u, self.how) else { return };
+    ) -> Drawn {
+        let nothing = Drawn { nth, light, prob, to: None, f: Rgb::BLACK, weight: 0.0, carried: Rgb::BLACK };
+        let Some(s) = scene.lights()[light as usize].sample(at, u, self.how) else { return nothing };
         if !at.sees_side(s.wi) {
-            return;
+            return Drawn { to: Some(s), ..nothing };
         }
         let wi = at.to_local(s.wi);
         let f = at.bsdf.eval(at.wo, wi);
         let mut carried = f * s.radiance * (wi.cos() / (prob * s.density.weight()));
+        let n = nth.n;
+        let mut weight = 1.0;
         if let (Some(other), Density::SolidAngle(p)) = (other, s.density) {
-            carried = carried * balance(n as f32 * prob * p, n as f32 * other(&s));
+            weight = balance(n as f32 * prob * p, n as f32 * other(&s));
+            carried = carried * weight;
         }
         let covered = if self.opaque { 1.0 } else { scene.coverage(s.prim, at.p + s.wi * s.distance) };
-        carried = carried * (self.mistaken(&s, n) * covered) * at.throughput;
-        if !carried.is_black() && carried.is_finite() {
-            out.segment(at, j, &s, plane_of(at), carried / n as f32);
-        }
+        let more = self.mistaken(&s, n) * covered;
+        carried = carried * more * at.throughput;
+        let carried = if carried.is_finite() { carried / n as f32 } else { Rgb::BLACK };
+        Drawn { nth, light, prob, to: Some(s), f, weight: weight * more, carried }
     }
 
     /// p(light) · p(ω): how densely one shadow ray draws the direction that found a light.
@@ -145,7 +184,7 @@ impl Lights {
             Mistake::NoCosLight => 1.0 / s.cos.max(1e-6),
             Mistake::NoDistance => distance2,
             // pdf_A taken for pdf_ω leaves out G's cos θ′/r²; the other way round it comes twice.
-            Mistake::WrongMeasure if self.how == LightPoints::Area => distance2 / s.cos.max(1e-6),
+            Mistake::WrongMeasure if self.how != LightPoints::SolidAngle => distance2 / s.cos.max(1e-6),
             Mistake::WrongMeasure => s.cos / distance2,
             _ => 1.0,
         }

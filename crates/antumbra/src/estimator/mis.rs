@@ -2,7 +2,7 @@
 
 use super::hemisphere::Directions;
 use super::lights::{Lights, balance, sees_lights};
-use super::{Draws, Estimator, Found, FoundLight, Mistake, Nth, Onward, Options, Proposals};
+use super::{Drawn, Draws, Estimator, Found, FoundLight, Mistake, Nth, Onward, Options, Proposals};
 use crate::light::LightSample;
 use crate::light::sampler::Scratch;
 use crate::receiver::Receiver;
@@ -32,13 +32,10 @@ impl Mis {
         goes_on: Option<f32>,
         out: &mut Proposals,
     ) {
-        let n = u.count(at) as f32;
         let twice = self.mistake == Mistake::CountedTwice;
-        // The other strategy draws `directions` samples for the n of this one.
-        let other = |s: &LightSample| self.directions.pdf(at, at.to_local(s.wi)) * directions as f32 / n;
         if sees_lights(&at.bsdf) {
-            let other: Option<&dyn Fn(&LightSample) -> f32> = if twice { None } else { Some(&other) };
-            self.lights.propose(scene, at, u, other, out);
+            let other = self.other(at, u, directions);
+            self.lights.propose(scene, at, u, if twice { None } else { Some(&other) }, out);
         }
         let share = if self.mistake == Mistake::NoCount { 1.0 } else { 1.0 / directions as f32 };
         for nth in Nth::of(directions) {
@@ -48,6 +45,17 @@ impl Mis {
             let (from, branch, density) = (from as u32, nth.j, d.density);
             out.ray(at, d.wi, Onward { from, throughput, branch, density, found, goes_on });
         }
+    }
+
+    /// How densely the other strategy draws a light point: `directions` samples for the n of light sampling.
+    fn other<'a>(
+        &'a self,
+        at: &'a Receiver,
+        u: &Draws<'_>,
+        directions: u32,
+    ) -> impl Fn(&LightSample) -> f32 + use<'a> {
+        let n = u.count(at) as f32;
+        move |s| self.directions.pdf(at, at.to_local(s.wi)) * directions as f32 / n
     }
 
     /// Share of a direction that found a light, against `rays` shadow rays for each direction.
@@ -66,6 +74,21 @@ impl Estimator for Mis {
     fn propose(&self, scene: &Scene, at: &[Receiver], u: &Draws<'_>, out: &mut Proposals) {
         for (from, at) in at.iter().enumerate() {
             self.propose_at(scene, (from, at), u, u.count(at), None, out);
+        }
+    }
+
+    fn each_point(
+        &self,
+        scene: &Scene,
+        at: &Receiver,
+        u: &Draws<'_>,
+        scratch: &mut Scratch,
+        visit: &mut dyn FnMut(Drawn),
+    ) {
+        if sees_lights(&at.bsdf) {
+            let other = self.other(at, u, u.count(at));
+            let twice = self.mistake == Mistake::CountedTwice;
+            self.lights.each(scene, at, u, if twice { None } else { Some(&other) }, scratch, visit);
         }
     }
 

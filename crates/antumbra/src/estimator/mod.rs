@@ -16,11 +16,11 @@ mod visible_fraction;
 pub use ambient_occlusion::{AmbientOcclusion, Falloff};
 pub use area::Area;
 pub use hemisphere::{Directions, Hemisphere};
-pub use lights::{LightChoice, Lights};
+pub use lights::{Drawn, LightChoice, Lights};
 pub use mis::Mis;
 pub use path::Path;
 pub use path_hemisphere::PathHemisphere;
-pub use proposals::{Carried, Found, Onward, Proposals};
+pub use proposals::{Carried, Found, Onward, Proposals, plane_of};
 pub use surfaces::Surfaces;
 pub use visible_fraction::VisibleFraction;
 
@@ -157,6 +157,17 @@ pub struct FoundLight<'a> {
 pub trait Estimator: Sync {
     /// Segments that carry light if they are free; rays that carry throughput onward.
     fn propose(&self, scene: &Scene, at: &[Receiver], u: &Draws<'_>, out: &mut Proposals);
+
+    /// The light points that `propose` draws for one receiver, in its order, with every factor (what `explain` shows).
+    fn each_point(
+        &self,
+        _scene: &Scene,
+        _at: &Receiver,
+        _u: &Draws<'_>,
+        _scratch: &mut Scratch,
+        _visit: &mut dyn FnMut(Drawn),
+    ) {
+    }
 
     /// Weight of light that a ray found (`Found::Weighed`): this strategy against light sampling.
     fn found_weight(&self, _scene: &Scene, _found: &FoundLight<'_>, _scratch: &mut Scratch) -> f32 {

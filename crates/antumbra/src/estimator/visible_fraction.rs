@@ -5,7 +5,7 @@ use antumbra_math::Rgb;
 
 use super::{Draws, Estimator, Nth, Proposals};
 use crate::film::Planes;
-use crate::light::{LightId, LightPoints};
+use crate::light::LightId;
 use crate::receiver::Receiver;
 use crate::sampler::Use;
 use crate::scene::Scene;
@@ -49,7 +49,8 @@ impl VisibleFraction {
                 }
             };
             let point = u.pair_for(k, at, Use::LightPoint, nth);
-            let sample = scene.lights()[light as usize].sample(at, point, LightPoints::Area);
+            let light = &scene.lights()[light as usize];
+            let sample = light.sample(at, point, light.even());
             if let Some(s) = sample.filter(|s| at.sees_side(s.wi)) {
                 out.segment(at, nth.j, &s, Planes::NONE, Rgb::grey(1.0 / (asked * n) as f32));
             }

@@ -17,6 +17,7 @@ const NAMED: &[(&str, Planes, usize)] = &[
     ("unshadowed-direct", Planes::UNSHADOWED, 3),
     ("sample-count", Planes::SAMPLE_COUNT, 1),
     ("standard-error", Planes::STANDARD_ERROR, 3),
+    ("regions", Planes::REGIONS, 1),
 ];
 
 impl Planes {
@@ -46,12 +47,19 @@ impl Planes {
     pub const SAMPLE_COUNT: Planes = Planes(1 << 10);
     /// Standard error of the picture.
     pub const STANDARD_ERROR: Planes = Planes(1 << 11);
+    /// Umbra, penumbra, antumbra, lit: one map a light, not a sum.
+    pub const REGIONS: Planes = Planes(1 << 12);
     /// All that can be asked for.
-    pub const ALL: Planes = Planes((1 << 12) - 2);
+    pub const ALL: Planes = Planes((1 << 13) - 2);
 
     /// Both sets.
     pub const fn union(self, other: Planes) -> Planes {
         Planes(self.0 | other.0)
+    }
+
+    /// The set but for the planes of `other`.
+    pub const fn without(self, other: Planes) -> Planes {
+        Planes(self.0 & !other.0)
     }
 
     /// Any plane of `other` is in.

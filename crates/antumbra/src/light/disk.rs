@@ -1,9 +1,10 @@
 //! A disk that shines from its front, the side of its normal.
 
-use antumbra_math::{DVec3, Rgb, World, closed, real, warp};
+use antumbra_math::{DVec2, DVec3, Rgb, World, closed, real, warp};
 use antumbra_trace::{NO_PRIM, PrimId, Shape};
 
 use super::flat::Front;
+use super::square::Square;
 use super::{LightBounds, LightHit, LightKind, LightPoints, LightSample, LightSurface, OutlinePoint};
 use crate::receiver::Receiver;
 
@@ -52,6 +53,25 @@ impl Disk {
         let (s, t) = n.any_orthonormal_pair();
         self.center.as_dvec3() + (s * f64::from(x) + t * f64::from(y)) * f64::from(self.radius)
     }
+    /// q, or its foot in the plane, as a point (x, y) of the unit disk.
+    #[inline]
+    fn place(&self, q: DVec3) -> DVec2 {
+        let (s, t) = self.front().n.any_orthonormal_pair();
+        let d = q - self.center.as_dvec3();
+        DVec2::new(d.dot(s), d.dot(t)) / f64::from(self.radius)
+    }
+
+    /// How points are drawn over the square that is bent onto the disk.
+    #[inline]
+    fn square(&self, p: DVec3, how: LightPoints) -> Square {
+        Square::of(how, || {
+            let near = self.place(p).clamp_length_max(1.0);
+            let front = self.front();
+            let distance = (self.point(front.n, near.x as f32, near.y as f32) - p).length();
+            let width = 2.0 * f64::from(self.radius);
+            (DVec2::from(warp::disk_inverse(near.into())), DVec2::splat(distance / width))
+        })
+    }
 }
 
 /// Edges of the polygon around a disk that the horizon cuts.
@@ -64,18 +84,24 @@ const COS_HALF_STEP: f64 = 0.980_785_280_403_230_4;
 
 impl LightKind for Disk {
     /// Uniform on the area for both ways of drawing (the solid angle of a disk has no elementary map):
-    /// p(ω) = r² / (A cos θ′).
+    /// p(ω) = r² / (A cos θ′), times the density over the square.
     #[inline]
-    fn sample(&self, at: &Receiver, u: [f32; 2], _how: LightPoints) -> Option<LightSample> {
-        let front = self.front();
-        let d = warp::disk(u);
-        front.sample(at.p, self.point(front.n, d.x, d.y), self.prim, None)
+    fn sample(&self, at: &Receiver, u: [f32; 2], how: LightPoints) -> Option<LightSample> {
+        let (front, square) = (self.front(), self.square(at.p.as_dvec3(), how));
+        let x = square.sample(u.map(f64::from));
+        let d = warp::disk(x.map(|x| x as f32));
+        front.drawn(square.pdf(x)).sample(at.p, self.point(front.n, d.x, d.y), self.prim, None)
     }
 
     #[inline]
-    fn pdf(&self, at: &Receiver, wi: World, _how: LightPoints) -> f32 {
-        let distance = self.hit(at.p, wi).map(|hit| f64::from(hit.distance));
-        distance.map_or(0.0, |r| self.front().area_pdf(wi.as_dvec3(), r))
+    fn pdf(&self, at: &Receiver, wi: World, how: LightPoints) -> f32 {
+        let Some(hit) = self.hit(at.p, wi) else { return 0.0 };
+        let (p, wi, distance) = (at.p.as_dvec3(), wi.as_dvec3(), f64::from(hit.distance));
+        let density = match self.square(p, how) {
+            Square::Even => 1.0,
+            square => square.pdf(warp::disk_inverse(self.place(p + wi * distance).into())),
+        };
+        self.front().drawn(density).area_pdf(wi, distance)
     }
 
     #[inline]

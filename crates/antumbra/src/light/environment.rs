@@ -98,11 +98,11 @@ impl LightKind for Environment {
                 let wi = around(warp::hemisphere(u));
                 arrive(wi, self.radiance_from(wi), self.pdf(at, wi, how))
             }
-            (None, LightPoints::SolidAngle) => {
+            (None, _) => {
                 let wi = around(warp::cosine_hemisphere(u));
                 arrive(wi, self.radiance, self.pdf(at, wi, how))
             }
-            (Some(picture), LightPoints::SolidAngle) => {
+            (Some(picture), _) => {
                 let drawn = picture.sample(u)?;
                 let wi = self.frame.to_world(antumbra_math::Local(drawn.wi)).normalize();
                 arrive(wi, self.radiance * drawn.radiance, drawn.pdf)
@@ -121,8 +121,8 @@ impl LightKind for Environment {
                     0.0
                 }
             }
-            (None, LightPoints::SolidAngle) => cos.max(0.0) * real::INV_PI,
-            (Some(picture), LightPoints::SolidAngle) => picture.pdf(self.frame.to_local(wi).0),
+            (None, _) => cos.max(0.0) * real::INV_PI,
+            (Some(picture), _) => picture.pdf(self.frame.to_local(wi).0),
         }
     }
 

@@ -22,6 +22,12 @@ pub(super) struct Front {
 }
 
 impl Front {
+    /// The same with points that are drawn `density` times as densely as even ones.
+    #[inline]
+    pub fn drawn(self, density: f64) -> Front {
+        Front { area: self.area / density, ..self }
+    }
+
     /// The point q of the light as p sees it, drawn with `solid_angle_pdf`, or with 1/A if that is `None`; `None` where
     /// the light does not shine.
     #[inline]

@@ -13,6 +13,7 @@ mod rectangle;
 pub mod sampler;
 mod sphere;
 mod spot;
+mod square;
 mod steps;
 mod sun;
 mod triangle;
@@ -44,6 +45,13 @@ pub enum LightPoints {
     SolidAngle,
     /// Uniform on the light's area: the lecture's pdf = 1/A.
     Area,
+    /// On the area of flat lights, one side nine times as dense as the other; others: as `SolidAngle`.
+    Skewed,
+    /// On the area of flat lights, dense about the point nearest to the receiver; others: as `SolidAngle`.
+    Nearest,
+    /// On the area of flat lights but for a strip of a quarter of it, which is never drawn; others: as `SolidAngle`.
+    /// Biased, on purpose, where nothing else finds the light of the strip.
+    Hole,
 }
 
 /// Where a segment to a light ends.
@@ -127,6 +135,11 @@ pub enum LightSurface {
 pub trait LightKind {
     /// Draws a point of the light that may shine on `at.p` (no look at normals of the receiver or at visibility).
     fn sample(&self, at: &Receiver, u: [f32; 2], how: LightPoints) -> Option<LightSample>;
+    /// How points are drawn that lie evenly over what a receiver sees of the light: in area where it is flat, in solid
+    /// angle where it is round or at infinity.
+    fn even(&self) -> LightPoints {
+        LightPoints::Area
+    }
     /// The density with which `sample` draws ω_i [1/sr]; 0 for delta lights and directions that miss.
     fn pdf(&self, at: &Receiver, wi: World, how: LightPoints) -> f32;
     /// L_e met from the point `from` along the unit vector `wi`; `None` for a miss and for delta lights.
@@ -184,6 +197,7 @@ macro_rules! kinds {
         impl Light {
             kinds!(@delegate [$($kind)*]
                 sample(at: &Receiver, u: [f32; 2], how: LightPoints) (at, u, how) -> Option<LightSample>;
+                even() () -> LightPoints;
                 pdf(at: &Receiver, wi: World, how: LightPoints) (at, wi, how) -> f32;
                 hit(from: World, wi: World) (from, wi) -> Option<LightHit>;
                 emitted(wi: World, front: bool) (wi, front) -> Rgb;

@@ -1,10 +1,11 @@
 //! A rectangle (or any parallelogram) that shines from its front, the side of u × v.
 
 use antumbra_math::spherical::{SphericalRectangle, SphericalTriangle};
-use antumbra_math::{DVec3, Rgb, World, closed};
+use antumbra_math::{DVec2, DVec3, Rgb, World, closed};
 use antumbra_trace::{NO_PRIM, PrimId};
 
 use super::flat::{Front, along_edges, far_irradiance, largest, lit};
+use super::square::Square;
 use super::{LightBounds, LightHit, LightKind, LightPoints, LightSample, LightSurface, OutlinePoint};
 use crate::receiver::Receiver;
 
@@ -72,6 +73,19 @@ impl Rectangle {
         if self.first_prim != NO_PRIM && beta > alpha { self.first_prim + 1 } else { self.first_prim }
     }
 
+    /// How points are drawn over (α, β).
+    #[inline]
+    fn square(&self, p: DVec3, how: LightPoints) -> Square {
+        Square::of(how, || {
+            let (corner, u, v) = self.edges();
+            let (n, to) = (u.cross(v), p - corner);
+            let foot = DVec2::new(to.cross(v).dot(n), -to.cross(u).dot(n)) / n.length_squared();
+            let near = foot.clamp(DVec2::ZERO, DVec2::ONE);
+            let distance = (corner + u * near.x + v * near.y - p).length();
+            (near, DVec2::new(distance / u.length(), distance / v.length()))
+        })
+    }
+
     /// p lies where the light shines.
     #[inline]
     fn faces(&self, p: DVec3) -> bool {
@@ -126,7 +140,8 @@ fn choose(two: &[Option<SphericalTriangle>; 2], u: f64) -> Option<(SphericalTria
 }
 
 impl LightKind for Rectangle {
-    /// Solid angle: Ureña, Fajardo and King 2013, or Arvo 1995 on two triangles. Area: p(ω) = r² / (A cos θ′).
+    /// Solid angle: Ureña, Fajardo and King 2013, or Arvo 1995 on two triangles. Area: p(ω) = r² / (A cos θ′), times the
+    /// density over (α, β).
     #[inline]
     fn sample(&self, at: &Receiver, u: [f32; 2], how: LightPoints) -> Option<LightSample> {
         let p = at.p.as_dvec3();
@@ -137,8 +152,10 @@ impl LightKind for Rectangle {
         let (corner, eu, ev) = self.edges();
         let u = u.map(f64::from);
         let on = |[alpha, beta]: [f64; 2]| corner + eu * alpha + ev * beta;
-        if how == LightPoints::Area {
-            return front.sample(at.p, on(u), self.prim(u), None);
+        if how != LightPoints::SolidAngle {
+            let square = self.square(p, how);
+            let ab = square.sample(u);
+            return front.drawn(square.pdf(ab)).sample(at.p, on(ab), self.prim(ab), None);
         }
         match self.seen(p) {
             Seen::Rectangle(r) => {
@@ -159,14 +176,19 @@ impl LightKind for Rectangle {
     #[inline]
     fn pdf(&self, at: &Receiver, wi: World, how: LightPoints) -> f32 {
         let Some(hit) = self.hit(at.p, wi) else { return 0.0 };
+        let (p, wi) = (at.p.as_dvec3(), wi.as_dvec3());
         let solid_angle = match how {
-            LightPoints::SolidAngle => self.seen(at.p.as_dvec3()).solid_angle(),
-            LightPoints::Area => None,
+            LightPoints::SolidAngle => self.seen(p).solid_angle(),
+            _ => None,
         };
-        match solid_angle {
-            Some(omega) => (1.0 / omega) as f32,
-            None => self.front().area_pdf(wi.as_dvec3(), f64::from(hit.distance)),
+        if let Some(omega) = solid_angle {
+            return (1.0 / omega) as f32;
         }
+        let density = match (how, self.meet(p, wi)) {
+            (LightPoints::SolidAngle | LightPoints::Area, _) | (_, None) => 1.0,
+            (how, Some((ab, _))) => self.square(p, how).pdf(ab),
+        };
+        self.front().drawn(density).area_pdf(wi, f64::from(hit.distance))
     }
 
     #[inline]

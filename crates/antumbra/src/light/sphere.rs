@@ -86,7 +86,7 @@ impl LightKind for Sphere {
     #[inline]
     fn sample(&self, at: &Receiver, u: [f32; 2], how: LightPoints) -> Option<LightSample> {
         let seen = self.seen(at.p)?;
-        if how == LightPoints::SolidAngle {
+        if how != LightPoints::Area {
             let axis = seen.to_center / seen.distance;
             let (s, t) = axis.any_orthonormal_pair();
             let l = warp::cone(u, seen.versin as f32).0.as_dvec3();
@@ -109,10 +109,15 @@ impl LightKind for Sphere {
         if cos > 0.0 { self.arrive(wi, distance, n, distance2 / (area * cos)) } else { None }
     }
 
+    /// Its far side is not seen.
+    fn even(&self) -> LightPoints {
+        LightPoints::SolidAngle
+    }
+
     #[inline]
     fn pdf(&self, at: &Receiver, wi: World, how: LightPoints) -> f32 {
         let (Some(seen), Some(_)) = (self.seen(at.p), self.hit(at.p, wi)) else { return 0.0 };
-        if how == LightPoints::SolidAngle {
+        if how != LightPoints::Area {
             return (1.0 / solid_angle::cone(seen.versin)) as f32;
         }
         let wi = wi.as_dvec3();

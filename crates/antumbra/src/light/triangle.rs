@@ -1,10 +1,11 @@
 //! A triangle that shines from its front, the side on which a, b, c run counter-clockwise.
 
 use antumbra_math::spherical::SphericalTriangle;
-use antumbra_math::{DVec3, Rgb, World, closed, warp};
+use antumbra_math::{DVec2, DVec3, Rgb, World, closed, warp};
 use antumbra_trace::{NO_PRIM, PrimId};
 
 use super::flat::{Front, along_edges, far_irradiance, largest, lit};
+use super::square::Square;
 use super::{LightBounds, LightHit, LightKind, LightPoints, LightSample, LightSurface, OutlinePoint};
 use crate::receiver::Receiver;
 
@@ -55,6 +56,30 @@ impl Triangle {
         }
     }
 
+    /// The weights of the second and third corner at q, or at its foot in the plane.
+    #[inline]
+    fn weights(&self, q: DVec3) -> [f64; 2] {
+        let [a, b, c] = self.corners();
+        let (e, f, to) = (b - a, c - a, q - a);
+        let n = e.cross(f);
+        [to.cross(f).dot(n), e.cross(to).dot(n)].map(|x| x / n.length_squared())
+    }
+
+    /// How points are drawn over the square that is folded onto the triangle.
+    #[inline]
+    fn square(&self, p: DVec3, how: LightPoints) -> Square {
+        Square::of(how, || {
+            let [v, w] = self.weights(p).map(|x| x.max(0.0));
+            // From outside, about the nearest point: the foot drawn onto the triangle toward its first corner.
+            let shrink = (v + w).max(1.0);
+            let [v, w] = [v / shrink, w / shrink];
+            let [a, b, c] = self.corners();
+            let distance = (a + (b - a) * v + (c - a) * w - p).length();
+            let [x, y] = warp::triangle_inverse([v, w]);
+            (DVec2::new(x, y), DVec2::new(distance / (b - a).length(), distance / (c - a).length()))
+        })
+    }
+
     /// The triangle as p sees it, its seen side counter-clockwise; `None` where it does not shine or looks so small that
     /// no digit of its solid angle is left: then points are drawn by area.
     #[inline]
@@ -79,8 +104,11 @@ impl LightKind for Triangle {
             let q = p + wi * front.plane_distance(p, wi, a)?;
             return front.sample(at.p, q, self.first_prim, Some(1.0 / seen.solid_angle));
         }
-        let [v, w] = warp::triangle(u).map(f64::from);
-        front.sample(at.p, a + (b - a) * v + (c - a) * w, self.first_prim, None)
+        let square = self.square(at.p.as_dvec3(), how);
+        let x = square.sample(u.map(f64::from));
+        let [v, w] = warp::triangle(x.map(|x| x as f32)).map(f64::from);
+        let q = a + (b - a) * v + (c - a) * w;
+        front.drawn(square.pdf(x)).sample(at.p, q, self.first_prim, None)
     }
 
     #[inline]
@@ -91,7 +119,12 @@ impl LightKind for Triangle {
         {
             return (1.0 / seen.solid_angle) as f32;
         }
-        self.front().area_pdf(wi.as_dvec3(), f64::from(hit.distance))
+        let (p, wi) = (at.p.as_dvec3(), wi.as_dvec3());
+        let density = match self.square(p, how) {
+            Square::Even => 1.0,
+            square => square.pdf(warp::triangle_inverse(self.weights(p + wi * f64::from(hit.distance)))),
+        };
+        self.front().drawn(density).area_pdf(wi, f64::from(hit.distance))
     }
 
     /// The plane, then the three signs of the triangle law.

@@ -19,5 +19,5 @@ pub use builder::{Body, Mesh, MeshId, Object, SceneBuilder};
 pub use camera::{Camera, Projection};
 pub use material::{Alpha, Emission, Material, MaterialId, Surface, TextureId};
 pub use message::{Level, Message, SceneError, nearest};
-pub use scene::{Emits, LightNames, Placed, Scene, SceneMesh};
+pub use scene::{Emits, LightNames, Placed, Scene, SceneMesh, SceneVisibility};
 pub use surface::{Look, Met, Start};

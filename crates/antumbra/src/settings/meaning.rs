@@ -2,7 +2,7 @@
 
 use super::{Masks, SettingValue, Settings};
 use crate::estimator::{EstimatorKind, Falloff, Mistake, Options};
-use crate::light::Light;
+use crate::light::{Light, LightPoints};
 use crate::sampler::{AnySampler, PassPlan, SamplerKind, SamplerOptions};
 use crate::scene::{Level, Look, Message, Scene, SceneError};
 
@@ -69,24 +69,33 @@ impl Settings {
         Ok(())
     }
 
-    /// Teaching switches that do nothing with the estimator that was chosen.
+    /// What of the teaching switches a person should be told: those that do nothing with the estimator that was chosen, and
+    /// a density that is wrong in silence.
     pub fn doubts(&self) -> Vec<Message> {
+        let said = |text| Message { level: Level::Warning, place: String::new(), text };
+        self.idle_mistake().into_iter().chain(self.hole()).map(said).collect()
+    }
+
+    fn idle_mistake(&self) -> Option<String> {
         use EstimatorKind::{Area, Hemisphere, Mis, Path};
         let kinds: &[EstimatorKind] = match self.mistake {
-            Mistake::None => return Vec::new(),
+            Mistake::None => return None,
             Mistake::NoCosLight | Mistake::NoDistance | Mistake::WrongMeasure => &[Area, Mis, Path],
             Mistake::CountedTwice => &[Mis, Path],
             Mistake::NoCount => &[Area, Hemisphere, Mis, Path],
         };
-        if kinds.contains(&self.estimator) {
-            return Vec::new();
-        }
-        let text = format!(
-            "mistake {} is none with estimator {}: the picture is right",
-            self.mistake.show(),
-            self.estimator.show()
-        );
-        vec![Message { level: Level::Warning, place: String::new(), text }]
+        (!kinds.contains(&self.estimator)).then(|| {
+            let (mistake, estimator) = (self.mistake.show(), self.estimator.show());
+            format!("mistake {mistake} is none with estimator {estimator}: the picture is right")
+        })
+    }
+
+    /// Directions find what a hole leaves out; without them it is lost.
+    fn hole(&self) -> Option<String> {
+        let lost = self.light_points == LightPoints::Hole && self.estimator == EstimatorKind::Area;
+        lost.then(|| {
+            "light-points hole never draws a quarter of a flat light: its light is missing, on purpose".into()
+        })
     }
 
     /// Where the random numbers come from.

@@ -1,22 +1,34 @@
 //! What is drawn: χ² of samples against the density, ∫ of the density, E[1/pdf], agreement with `hit`, bounds.
 
 use antumbra::density::Density;
-use antumbra::light::{End, Light, LightPoints, LightSample};
+use antumbra::light::{End, Light, LightPoints, LightSample, LightSurface};
 use antumbra::math::stats::{SphereBins, chi_square_test, sidak};
 use antumbra::math::{Frame, Local, World, real};
 use antumbra::receiver::Receiver;
+use antumbra::trace::Shape;
 
 use crate::{HOWS, draws, numbers, receivers};
 
 const N: u32 = 12_000;
 
-/// Every example that fills a solid angle × every receiver × both ways of drawing, with its number.
+/// The ways of drawing that differ for a light: those of the lecture are for flat ones.
+fn ways(light: &Light) -> impl Iterator<Item = LightPoints> + use<> {
+    let flat = match light.surface() {
+        Some(LightSurface::Triangles(_)) => true,
+        Some(LightSurface::Shape(shape)) => matches!(shape, Shape::Disk { .. }),
+        None => false,
+    };
+    let lecture = [LightPoints::Skewed, LightPoints::Nearest, LightPoints::Hole];
+    HOWS.into_iter().chain(lecture.into_iter().filter(move |_| flat))
+}
+
+/// Every example that fills a solid angle × every receiver × every way of drawing, with its number.
 fn cases() -> impl Iterator<Item = (String, Light, Receiver, LightPoints, u32)> {
     let lights = Light::examples().into_iter().enumerate().filter(|(_, (_, light))| !light.is_delta());
     lights.flat_map(|(k, (kind, light))| {
         receivers().into_iter().enumerate().flat_map(move |(r, at)| {
             let light = light.clone();
-            HOWS.into_iter().map(move |how| {
+            ways(&light).map(move |how| {
                 let name = format!("{kind} #{k} from receiver {r}, {how:?}");
                 (name, light.clone(), at, how, (100 * k + r) as u32)
             })

@@ -74,6 +74,57 @@ fn mistakes_are_seen() {
     }
 }
 
+/// The densities of the lecture have the right mean, whatever they prefer; one with a hole lacks exactly the light of
+/// the hole, unless directions find it too. α = 10⁻³.
+#[test]
+fn densities_are_unbiased_but_for_the_hole() {
+    let scene = scene(false, false);
+    // A quarter of the light: x from 0.7 to 0.95.
+    let strip = [[0.7, 1.5, -0.5], [0.95, 1.5, -0.5], [0.95, 1.5, 0.5], [0.7, 1.5, 0.5]].map(DVec3::from);
+    let lost = closed::polygon(&strip, DVec3::Y).abs();
+    assert!(lost > 0.2 * open());
+    let mut judge = Judge::default();
+    use LightPoints::{Hole, Nearest, Skewed};
+    for (how, kind, truth) in [
+        (Skewed, Area, open()),
+        (Nearest, Area, open()),
+        (Hole, Area, open() - lost),
+        (Skewed, Mis, open()),
+        (Nearest, Mis, open()),
+        (Hole, Mis, open()),
+        (Hole, Path, open()),
+    ] {
+        let s = Settings { light_points: how, bounces: 1, ..settings(kind, size(1 << 14, 1 << 18)) };
+        let found = irradiance(&scene, up(), &s);
+        judge.add(trial(format!("{how:?} in {kind:?}"), &found, truth, 1e-5));
+        assert_eq!(
+            s.doubts().iter().any(|m| m.text.contains("hole")),
+            how == Hole && kind == Area,
+            "{how:?} {kind:?}"
+        );
+    }
+    judge.verdict("densities_are_unbiased_but_for_the_hole", 1e-3);
+}
+
+/// The noise of one shadow ray: near a light, points about the nearest one beat even ones, and skewed ones lose.
+#[test]
+fn densities_that_follow_the_light_have_less_noise() {
+    let mut builder = SceneBuilder::new("near");
+    let light = Rectangle::new(Vec3::new(-1.0, 0.2, -1.0), Vec3::X * 2.0, Vec3::Z * 2.0, Rgb::WHITE);
+    builder.light("light", light);
+    let scene = builder.build().unwrap();
+    let at = receiver([-0.4, 0.0, -0.3], [0.0, 1.0, 0.0]);
+    let noise = |light_points| {
+        let sampler = antumbra::sampler::SamplerKind::Random;
+        let s = Settings { light_points, sampler, ..settings(Area, size(1 << 14, 1 << 18)) };
+        f64::from(irradiance(&scene, at, &s).standard_error[0][0])
+    };
+    let [nearest, even, skewed] = [LightPoints::Nearest, LightPoints::Area, LightPoints::Skewed].map(noise);
+    println!("standard errors: nearest {nearest:.2e}, even {even:.2e}, skewed {skewed:.2e}");
+    // 16 replicates know a standard error to a fifth.
+    assert!(nearest < 0.5 * even && even < skewed, "{nearest} {even} {skewed}");
+}
+
 /// Light counted twice is twice the light; N samples added up are N times the light.
 #[test]
 fn counting_mistakes_count() {
