@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from antumbra.cli._say import significant, some
+from antumbra.settings import table
 
 if TYPE_CHECKING:
     from antumbra.explanation import Explanation, LightRay, Triple, ViewingRay
@@ -15,12 +16,23 @@ _COLUMN = 25
 def explained(e: Explanation) -> str:
     """Scene and pixel; per viewing ray its receiver and its table; the sum."""
     mis = e.settings.get("estimator") == "mis"
-    lines = [f"{e.name}, pixel {e.pixel[0]},{e.pixel[1]} of {e.size[0]} × {e.size[1]}"]
+    lines = [f"{e.name}, pixel {e.pixel[0]},{e.pixel[1]} of {e.size[0]} × {e.size[1]} · {_plan(e)}"]
     for k, ray in enumerate(e.viewing_rays):
         lines += ["", *_viewing_ray(e, k, ray, mis)]
-    rows = some(len(e.light_rays), "ray", "rays")
-    lines += ["", _fact("pixel", f"{_color(e.value)}   the sum over {rows} to lights, as in the picture")]
+    lines += ["", _fact("pixel", f"{_color(e.value)}, the sum, as in the picture")]
+    if e.light_rays:
+        share = "weight · " if mis else ""
+        lines += [
+            _fact("brings", f"V · {share}L_e · f_r · cos θ / pdf,"),
+            _fact("", "over shadow rays × viewing rays; luminances"),
+        ]
     return "\n".join(lines)
+
+
+def _plan(e: Explanation) -> str:
+    value = {name: e.settings.get(name, setting.default) for name, setting in table().items()}
+    shadow = some(int(value["shadow_rays"]), "shadow ray")
+    return f"{value['estimator']}, {value['viewing_rays']} viewing × {shadow}"
 
 
 def _viewing_ray(e: Explanation, k: int, ray: ViewingRay, mis: bool) -> list[str]:
@@ -40,7 +52,7 @@ def _viewing_ray(e: Explanation, k: int, ray: ViewingRay, mis: bool) -> list[str
     if ray.light_rays:
         third = "weight" if mis else "r²"
         head = ("cos θ", "cos θ′", third, "pdf", "L_e", "f_r", "V", "brings")
-        lines += ["", _row("light", "point on it, or direction", head)]
+        lines += ["", _row("light", "point, or direction", head)]
         lines += [_light_ray(e, row, mis) for row in ray.light_rays]
         lines.append(_fact("its sum", _color(ray.brings)))
     return lines

@@ -103,7 +103,8 @@ class Anatomy:
         """
         start, ends, reach = self._segments(origins, targets, directions, max_distance)
         counts, blocked = self._core.visits(start, ends, reach)
-        return Visits(*counts.T, blocked)
+        any_boxes, any_primitives, closest_boxes, closest_primitives = counts.T
+        return Visits(any_boxes, any_primitives, closest_boxes, closest_primitives, blocked)
 
     def explain(self, pixel: tuple[int, int], **options: Any) -> Explanation:
         """One pixel (column, row from the upper left) taken apart.
@@ -115,7 +116,7 @@ class Anatomy:
         Raises SceneError for another estimator, for a pixel outside the picture and for more than a million rows.
 
         >>> import antumbra as am
-        >>> found = am.builtin("pillars").explain((320, 240), viewing_rays=1, shadow_rays=4)
+        >>> found = am.builtin("pillars").explain((250, 300), viewing_rays=1, shadow_rays=4)
         >>> len(found.light_rays), found.viewing_rays[0].receiver.object
         (4, 'floor')
         """

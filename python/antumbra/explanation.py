@@ -90,7 +90,9 @@ class Explanation:
     were given, as words; `messages`. `print` shows it as a table.
     """
 
-    def __init__(self, name: str, pixel: tuple[int, int], found: dict[str, Any], given: dict[str, str]) -> None:
+    def __init__(
+        self, name: str, pixel: tuple[int, int], found: dict[str, Any], given: dict[str, str]
+    ) -> None:
         """Names what the core found."""
         self.name, self.pixel, self.settings = name, pixel, given
         self.size: tuple[int, int] = tuple(found["size"])
@@ -131,13 +133,16 @@ class Explanation:
     def __repr__(self) -> str:
         """`<Explanation pillars 320,240: 0.0413 0.0384 0.0339, 4 rays to lights>`."""
         value = " ".join(f"{c:.3g}" for c in self.value)
-        return f"<Explanation {self.name} {self.pixel[0]},{self.pixel[1]}: {value}, {len(self.light_rays):,} rays to lights>"
+        rays = f"{len(self.light_rays):,} rays to lights"
+        return f"<Explanation {self.name} {self.pixel[0]},{self.pixel[1]}: {value}, {rays}>"
 
 
 def _viewing_ray(found: dict[str, Any]) -> ViewingRay:
     rows = [LightRay(**{key: _tuple(x) for key, x in row.items()}) for row in found["light_rays"]]
     met = found["met"] and Receiver(**{key: _tuple(x) for key, x in found["met"].items()})
-    return ViewingRay(_tuple(found["origin"]), _tuple(found["direction"]), met, _tuple(found["emission"]), rows)
+    return ViewingRay(
+        _tuple(found["origin"]), _tuple(found["direction"]), met, _tuple(found["emission"]), rows
+    )
 
 
 def _tuple(value: Any) -> Any:

@@ -97,7 +97,8 @@ def _usage(problem: click.UsageError) -> tuple[str, str]:
         near = _say.nearest_hint(problem.option_name, known, "{}")
         return f"there is no option {problem.option_name}{near}", hint
     if isinstance(problem, click.MissingParameter) and problem.param:
-        return f"{problem.param.metavar} is missing", hint
+        own = problem.param.opts if isinstance(problem.param, click.Option) else []
+        return f"{' '.join([*own[:1], problem.param.metavar or ''])} is missing", hint
     if isinstance(problem, click.BadOptionUsage):
         return f"{problem.option_name} needs a value", hint
     return problem.format_message(), ""

@@ -44,7 +44,7 @@ VERB = Verb(
     arguments=[("SCENE", True)],
     groups=GROUPS,
     examples=[
-        ("antumbra explain pillars --pixel 320,240 --viewing-rays 1 --shadow-rays 9", ""),
+        ("antumbra explain pillars --pixel 358,391 --viewing-rays 1 --shadow-rays 9", ""),
         ("antumbra explain corner --pixel 200,300 --estimator hemisphere", "by directions"),
         ("antumbra explain room.glb --pixel 10,20 --light Lamp --json", ""),
     ],

@@ -1,5 +1,7 @@
 //! Sampling the lights: which one, which point of it, and what a segment to it would carry.
 
+use antumbra_math::Rgb;
+
 use super::proposals::plane_of;
 use super::{Draws, FoundLight, Mistake, Nth, Options, Proposals};
 use crate::bsdf::Bsdf;
