@@ -74,14 +74,14 @@ fn the_sum_is_the_pixel() {
 #[test]
 fn every_row_is_its_formula() {
     let scene = rooms::lit().build().unwrap();
-    let s = Settings { viewing_rays: 4, shadow_rays: 2, light_points: LightPoints::Area, ..small(Area) };
+    let s = Settings { viewing_rays: 16, shadow_rays: 2, light_points: LightPoints::Area, ..small(Area) };
     let (mut free, mut blocked) = (0, 0);
     for pixel in PIXELS {
         for ray in &taken(&scene, pixel, &s).viewing_rays {
             let Some(met) = &ray.met else { continue };
             assert!((ray.origin + ray.direction * met.distance as f32 - met.receiver.p).length() < 1e-5);
             for row in ray.light_rays.iter().filter(|row| row.pdf > 0.0) {
-                let factor = row.weight * row.cos / (row.pdf * 8.0);
+                let factor = row.weight * row.cos / (row.pdf * 32.0);
                 for (c, brings) in row.brings.iter().enumerate() {
                     let v = if row.visible == Some(true) { 1.0 } else { 0.0 };
                     let formula = f64::from(v * row.radiance.0[c] * row.brdf.0[c] * factor);
