@@ -1,0 +1,49 @@
+"""Scenes under a square light that faces down, and what closed forms say of it."""
+
+from __future__ import annotations
+
+import math
+from functools import cache
+
+import antumbra as am
+from antumbra.lecture.scenes import SceneOf, square
+
+# Three boards between light and floor: height of each over the floor, middle and half of its width in z.
+LIGHT_HEIGHT = 2.0
+BOARDS = ((0.25, 1.08, 0.25), (0.5, -0.925, 0.25), (1.0, 0.0, 0.35))
+
+
+@cache
+def boards_under_square(size: float, intensity: float = 4.0) -> SceneOf:
+    """Boards that end at x = 0 under a square light of edge `size` in y = 2; 0 is a point light.
+
+    The power stays the same: radiance = `intensity` / size², so that a small light sends `intensity` [W/sr] straight
+    down, as the point does. All edges lie under the middle of the light.
+    """
+
+    def build() -> am.Scene:
+        scene = am.Scene("boards")
+        square(scene, 0.0, 12.0, am.materials.Diffuse(0.6))
+        for height, middle, half in BOARDS:
+            board = am.shapes.Rectangle((-1.5, height, middle - half), (0.0, 0.0, 2 * half), (1.5, 0.0, 0.0))
+            scene.add_shape(board, material=am.materials.Diffuse(0.45), name=f"board-{height:g}")
+        if size > 0:
+            scene.add_light(square_light(size, LIGHT_HEIGHT, intensity / size**2), name="light")
+        else:
+            scene.add_light(am.lights.Point((0.0, LIGHT_HEIGHT, 0.0), intensity), name="light")
+        return scene
+
+    return build
+
+
+def square_light(size: float, height: float, radiance: float = 1.0) -> am.lights.Rectangle:
+    """A square of edge `size` around the y axis that faces down from `height`."""
+    half = size / 2
+    return am.lights.Rectangle((-half, height, -half), (size, 0.0, 0.0), (0.0, 0.0, size), radiance)
+
+
+def irradiance_below(size: float, height: float) -> float:
+    """E / L_e straight below the middle of a square light: four times the form of a corner (element to rectangle)."""
+    a = size / (2 * height)
+    root = math.hypot(1.0, a)
+    return 4 * a / root * math.atan(a / root)
