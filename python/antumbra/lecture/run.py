@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Hashable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -40,6 +40,7 @@ class Run:
         self.rays = 0
         self._images: dict[str, list[Image]] = {}
         self._scenes: dict[Callable[[], Scene], Scene] = {}
+        self._once: dict[Any, Any] = {}
 
     def pick(self, value: Any) -> Any:
         """The value itself, or the part of a `Pick` that this run takes."""
@@ -69,6 +70,12 @@ class Run:
         if build not in self._scenes:
             self._scenes[build] = build()
         return self._scenes[build]
+
+    def once(self, what: Hashable, make: Callable[[], Any]) -> Any:
+        """What `make` gives, made at the first call with this `what`: measure and stage share it."""
+        if what not in self._once:
+            self._once[what] = make()
+        return self._once[what]
 
     def seeded(self, replicate: int) -> int:
         """The seed of a replicate, for queries that a figure makes by itself."""

@@ -64,3 +64,39 @@ def disk_over_floor(light: float, occluder: float = 0.2) -> SceneOf:
         return scene
 
     return build
+
+
+@cache
+def two_windows(size: float = 2.0, apart: float = 3.0) -> SceneOf:
+    """The pillars under two equal square lights of edge `size`, their centres `apart`, in one plane."""
+
+    def build() -> am.Scene:
+        scene = am.builtin("pillars", light_size=size)
+        # The light of the built-in scene: its centre, and the plane that faces the middle of the floor.
+        center = np.array([-3.3, 6.2, -3.6])
+        toward = np.array([0.0, 0.5, 0.0]) - center
+        toward /= np.linalg.norm(toward)
+        u = np.cross(toward, [0.0, 1.0, 0.0])
+        u /= np.linalg.norm(u)
+        v = np.cross(toward, u)
+        corner = center + (apart - size / 2) * u - size / 2 * v
+        radiance = 165.0 / size**2 * np.array([1.0, 0.93, 0.82])
+        sides = (corner.tolist(), (size * u).tolist(), (size * v).tolist())
+        scene.add_light(am.lights.Rectangle(*sides, radiance=tuple(radiance)), name="second")
+        return scene
+
+    return build
+
+
+@cache
+def half_hidden_disk() -> SceneOf:
+    """A disk light of radius 1 at height 1; a plate hides the half x < 0 of it from the origin (CF35e)."""
+
+    def build() -> am.Scene:
+        scene = am.Scene("half-hidden-disk")
+        scene.add_light(am.lights.Disk((0.0, 1.0, 0.0), (0.0, -1.0, 0.0), 1.0, radiance=1.0), name="light")
+        corners = [[-3.0, 0.5, -3.0], [0.0, 0.5, -3.0], [0.0, 0.5, 3.0], [-3.0, 0.5, 3.0]]
+        scene.add_mesh(corners, [[0, 2, 1], [0, 3, 2]], name="plate")
+        return scene
+
+    return build
