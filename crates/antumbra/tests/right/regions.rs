@@ -125,6 +125,36 @@ fn eclipses_are_total_or_annular() {
     assert_eq!([at(356_500.0), at(406_700.0)], [Some(Umbra), Some(Antumbra)]);
 }
 
+/// The map of the shadow on the earth: the umbra is the cone r − x (R − r)/D, x behind the moon (similar triangles).
+#[test]
+fn the_umbra_on_the_earth_has_its_width() {
+    let (earth, moon, sun, unit, distance) = (6371.0, 1737.4, 695_700.0, 149_597_870.7, 363_300.0);
+    let set = [("distance".to_string(), distance)];
+    let scene = builtin::build("eclipse", &set).unwrap().build().unwrap();
+    let radius: f64 = moon - (distance - earth) * (sun - moon) / (unit - distance);
+    let camera = Some("shadow".to_string());
+    let s = Settings { camera, aov: Planes::REGIONS, region_points: 128, ..small(EstimatorKind::Area) };
+    let picture = look(&scene, &Settings { viewing_rays: 1, size: Some([100, 100]), ..s });
+    let umbra = plane(&picture, "regions").iter().filter(|c| **c == 0.0).count();
+    let found = (umbra as f64 / std::f64::consts::PI).sqrt() * 800.0 / 100.0;
+    println!("radius of the umbra {radius:.2} km, in the map {found:.2} km");
+    // 296 pixels: a circle's area is known to about the root of its rim of 61, 2.6 %, so its radius to 1.3 %; 128 points
+    // on the outline of the sun add R (1 − cos(π/128)) x / D = 0.5 km.
+    assert!((found / radius - 1.0).abs() < 0.03);
+    let rods = [("rods".to_string(), 0.0)];
+    let scene = builtin::build("antumbra", &rods).unwrap().build().unwrap();
+    let s = Settings {
+        aov: Planes::REGIONS,
+        viewing_rays: 1,
+        light: vec!["key".into()],
+        ..small(EstimatorKind::Area)
+    };
+    let picture = look(&scene, &Settings { size: Some([200, 120]), ..s });
+    let rings = plane(&picture, "regions").iter().filter(|c| **c == 2.0).count();
+    println!("{rings} pixels in an antumbra");
+    assert!(rings > 20);
+}
+
 /// A picture has one map a light, of the middle of its pixels; the same for any noise, tile and number of threads.
 #[test]
 fn maps_lie_beside_the_picture() {

@@ -11,14 +11,24 @@ use crate::scene::{Camera, Material, SceneBuilder};
 pub(super) const SCENE: Builtin = Builtin {
     name: "antumbra",
     shows: "Equal balls at five heights under a disk of light: the umbra shrinks, closes, and the antumbra opens",
-    parameters: &[Parameter {
-        name: "light-radius",
-        default: 1.3,
-        low: 0.001,
-        high: 3.0,
-        whole: false,
-        help: "radius of the disk of light [m]; its power stays the same",
-    }],
+    parameters: &[
+        Parameter {
+            name: "light-radius",
+            default: 1.3,
+            low: 0.001,
+            high: 3.0,
+            whole: false,
+            help: "radius of the disk of light [m]; its power stays the same",
+        },
+        Parameter {
+            name: "rods",
+            default: 1.0,
+            low: 0.0,
+            high: 1.0,
+            whole: true,
+            help: "1: rods hold the balls; 0: nothing crosses the ring of light around them",
+        },
+    ],
     build,
 };
 
@@ -44,7 +54,9 @@ fn build(values: &Values) -> SceneBuilder {
         let ball = scene.material(Material::diffuse(color));
         let center = single(foot + DVec3::Y * height);
         scene.shape("ball", Shape::Sphere { center, radius: BALL as f32 }, ball);
-        scene.shape("rod", Shape::Cylinder { p: single(foot), q: center, radius: 0.02 }, steel);
+        if values.get("rods") > 0.0 {
+            scene.shape("rod", Shape::Cylinder { p: single(foot), q: center, radius: 0.02 }, steel);
+        }
     }
 
     let radius = values.get("light-radius") as f32;

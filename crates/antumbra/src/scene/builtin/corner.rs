@@ -4,18 +4,25 @@ use antumbra_math::{DVec3, Rgb};
 use antumbra_trace::Shape;
 
 use super::solids::{ball, joined, lathe, moved, quad, rounded_box, smooth, torus, turn, turn_y};
-use super::{Builtin, Values};
-use crate::light::Environment;
+use super::{Builtin, Parameter, Values};
+use crate::light::{Environment, Rectangle};
 use crate::scene::{Camera, Material, SceneBuilder};
 
 pub(super) const SCENE: Builtin = Builtin {
     name: "corner",
     shows: "Three meeting walls and a few things under an even sky: occlusion alone makes the shading",
-    parameters: &[],
+    parameters: &[Parameter {
+        name: "light-size",
+        default: 0.0,
+        low: 0.0,
+        high: 2.0,
+        whole: false,
+        help: "edge of a square lamp in place of the sky [m], its power the same for each; 0: the sky",
+    }],
     build,
 };
 
-fn build(_: &Values) -> SceneBuilder {
+fn build(values: &Values) -> SceneBuilder {
     let mut scene = SceneBuilder::new(SCENE.name);
     let clay = scene.material(Material::diffuse(Rgb::new(0.60, 0.58, 0.55)).named("clay"));
 
@@ -43,9 +50,22 @@ fn build(_: &Values) -> SceneBuilder {
         smooth(&mut scene, "pebble", pebble, clay);
     }
 
-    scene.light("sky", Environment::constant(Rgb::new(0.80, 0.83, 0.86)));
+    match values.get("light-size") {
+        0.0 => scene.light("sky", Environment::constant(Rgb::new(0.80, 0.83, 0.86))),
+        size => scene.light("lamp", lamp(size)),
+    }
 
     let eye = DVec3::new(4.6, 2.9, 5.1);
     scene.cameras.push(Camera::perspective(eye, DVec3::new(1.12, 0.62, 0.98), 31.0).sized(640, 480));
     scene
+}
+
+/// A square over the picture that shines into the corner.
+fn lamp(size: f64) -> Rectangle {
+    let center = DVec3::new(1.7, 3.7, 1.6);
+    let toward = (DVec3::new(0.8, 0.3, 0.8) - center).normalize();
+    let u = toward.cross(DVec3::Y).normalize() * size;
+    let v = toward.cross(u);
+    let radiance = Rgb::new(1.0, 0.93, 0.82) * (34.0 / (size * size)) as f32;
+    Rectangle::new((center - (u + v) * 0.5).as_vec3(), u.as_vec3(), v.as_vec3(), radiance)
 }

@@ -6,7 +6,7 @@ use antumbra_trace::Shape;
 use super::solids::{single, turned};
 use super::{Builtin, Parameter, Values};
 use crate::light::Sphere;
-use crate::scene::{Camera, Material, SceneBuilder};
+use crate::scene::{Camera, Material, Projection, SceneBuilder};
 
 pub(super) const SCENE: Builtin = Builtin {
     name: "eclipse",
@@ -51,5 +51,20 @@ fn build(values: &Values) -> SceneBuilder {
     let ((c, s), (up_c, up_s)) = (turned(30.0 / 360.0), turned(12.0 / 360.0));
     let eye = DVec3::new(c * up_c, up_s, s * up_c) * 42_000.0;
     scene.cameras.push(Camera::perspective(eye, DVec3::ZERO, 19.5).sized(600, 600));
+    scene.cameras.extend([shadow(to_sun), ground(to_sun)]);
     scene
+}
+
+/// 800 km of the earth around the point under the sun, seen from there: the umbra is some 100 km wide.
+fn shadow(to_sun: DVec3) -> Camera {
+    let below = to_sun * EARTH;
+    let projection = Projection::Orthographic { height: 800.0 };
+    let from_above = Camera::perspective(below + to_sun * 1000.0, below, 1.0);
+    Camera { name: "shadow".into(), projection, ..from_above }.sized(480, 480)
+}
+
+/// From that point up to the sun, 0.53° wide, and the moon before it; a metre and a half above the ground.
+fn ground(to_sun: DVec3) -> Camera {
+    let up = Camera::perspective(to_sun * (EARTH + 0.0015), to_sun * UNIT, 0.8);
+    Camera { name: "ground".into(), ..up }.sized(480, 480)
 }

@@ -263,7 +263,7 @@ fn wrong_names_and_values_are_told_with_a_way_out() {
     assert!(!error("xyzzy", &[]).contains("did you mean"));
     assert!(error("xyzzy", &[]).contains("cornell-box"));
     assert!(error("pillars", &[("lightsize", 1.0)]).contains("did you mean \"light-size\"?"));
-    assert!(error("corner", &[("size", 1.0)]).contains("It has none."));
+    assert!(error("terrain", &[("size", 1.0)]).contains("It has none."));
     assert!(error("pillars", &[("light-size", -1.0)]).contains("outside 0.001 … 4"));
     assert!(error("pillars", &[("light-size", f64::NAN)]).contains("outside"));
     assert!(error("many-lights", &[("lights", 2.5)]).contains("not a whole number"));
