@@ -19,7 +19,7 @@ from antumbra.errors import OptionError, RenderStopped, SceneError
 from antumbra.messages import Message
 
 if TYPE_CHECKING:
-    from antumbra import lights, materials, shapes
+    from antumbra import lights, materials, shapes, study
     from antumbra.anatomy import Region
     from antumbra.estimate import Estimate
     from antumbra.explanation import Explanation
@@ -46,6 +46,7 @@ __all__ = [
     "load_image",
     "materials",
     "shapes",
+    "study",
 ]
 
 # Where each name lives. Imported when first asked for, because `import antumbra` must not wait for NumPy.
@@ -61,7 +62,7 @@ _HOME = {
     "load": "scene",
     "load_image": "image",
 }
-_MODULES = {"lights", "materials", "shapes"}
+_MODULES = {"lights", "materials", "shapes", "study"}
 
 
 def __getattr__(name: str) -> Any:

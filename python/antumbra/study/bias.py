@@ -12,6 +12,8 @@ from numpy.typing import ArrayLike, NDArray
 from antumbra.study import statistics
 from antumbra.study._quantiles import t_inside, t_quantile
 
+# x, y, width, height in pixels.
+Box = tuple[int, int, int, int]
 # False alarms: at most one in a thousand tests of a right estimator.
 ALPHA = 1e-3
 # Tiles per side: a bias that is bright here and dark there must not cancel in the mean of the picture.
@@ -29,17 +31,20 @@ class Bias(NamedTuple):
     flagged: bool
     p: float
     difference: statistics.Interval
-    tile: tuple[int, int, int, int] | None
+    tile: Box | None
 
 
 def bias(
     replicates: ArrayLike,
     reference: ArrayLike,
+    reference_error: ArrayLike | None = None,
     *,
     alpha: float = ALPHA,
     tiles: int = TILES,
 ) -> Bias:
-    """Tests the mean of `replicates` (K, H, W[, 3]) against `reference`: (R, H, W[, 3]), or exact, (H, W[, 3]).
+    """Tests the mean of `replicates` (K, H, W[, 3]) against `reference`: R replicates (R, H, W[, 3]), or one picture.
+
+    One picture (H, W[, 3]) is exact, or has `reference_error`, its standard error in each cell, cells independent.
 
     Each of the tiles² tiles, and the whole, has one mean per replicate. Their difference from the reference's, over
     its standard error √(s²/K + s_r²/R), is compared with Student's t of min(K, R) − 1 degrees of freedom (fewer than
@@ -51,46 +56,59 @@ def bias(
         raise ValueError(
             f"replicates {x.shape}, reference {r.shape}: at least 2, and the same picture, are needed"
         )
+    own = (
+        np.zeros(r.shape)
+        if reference_error is None
+        else np.broadcast_to(np.asarray(reference_error), r.shape)
+    )
     boxes = _boxes(x.shape[1], x.shape[2], tiles)
-    places: list[tuple[int, int, int, int] | None] = [None, *(boxes if len(boxes) > 1 else [])]
-    tests = [_p(_means(x, place), _means(r, place)) for place in places]
+    places: list[Box | None] = [None, *(boxes if len(boxes) > 1 else [])]
+    gaps = [_gap(_cells(x, place), _cells(r, place), _cells(own, place)) for place in places]
+    tests = [gap.p() for gap in gaps]
     best = min(range(len(tests)), key=tests.__getitem__)
     p = min(1.0, tests[best] * len(tests))
-    return Bias(p < alpha, p, _difference(_means(x, None), _means(r, None)), places[best])
+    return Bias(p < alpha, p, gaps[0].interval(), places[best])
 
 
-def _boxes(height: int, width: int, tiles: int) -> list[tuple[int, int, int, int]]:
+class _Gap(NamedTuple):
+    """A difference of two means, its standard error and degrees of freedom, and the size of the mean itself."""
+
+    value: float
+    error: float
+    dof: int
+    mean: float
+
+    def p(self) -> float:
+        """Two-sided p. Where neither has noise, only the rounding of single precision is forgiven."""
+        if self.error == 0:
+            return 0.0 if abs(self.value) > 1e-6 * abs(self.mean) else 1.0
+        return max(0.0, 1.0 - t_inside(abs(self.value) / self.error, self.dof))
+
+    def interval(self) -> statistics.Interval:
+        """The difference with its 95 % interval."""
+        half = t_quantile(0.975, self.dof) * self.error
+        return statistics.Interval(self.value, self.value - half, self.value + half)
+
+
+def _gap(x: NDArray[np.float64], r: NDArray[np.float64], own: NDArray[np.float64]) -> _Gap:
+    """Of cells (K, n) from those of the reference (R, n) with their own standard errors (R, n)."""
+    a, b = x.mean(axis=1), r.mean(axis=1)
+    square = float(a.var(ddof=1)) / len(a) + float((own**2).sum()) / own.size**2
+    dof = len(a) - 1
+    if len(b) > 1:
+        square += float(b.var(ddof=1)) / len(b)
+        dof = min(dof, len(b) - 1)
+    return _Gap(float(a.mean() - b.mean()), math.sqrt(square), dof, float(b.mean()))
+
+
+def _boxes(height: int, width: int, tiles: int) -> list[Box]:
     xs = sorted({round(width * i / tiles) for i in range(tiles + 1)})
     ys = sorted({round(height * i / tiles) for i in range(tiles + 1)})
     return [(x, y, x1 - x, y1 - y) for y, y1 in pairwise(ys) for x, x1 in pairwise(xs)]
 
 
-def _means(pictures: NDArray[np.float64], place: tuple[int, int, int, int] | None) -> NDArray[np.float64]:
+def _cells(pictures: NDArray[np.float64], place: Box | None) -> NDArray[np.float64]:
     if place is not None:
         x, y, width, height = place
         pictures = pictures[:, y : y + height, x : x + width]
-    means: NDArray[np.float64] = pictures.reshape(len(pictures), -1).mean(axis=1)
-    return means
-
-
-def _p(x: NDArray[np.float64], r: NDArray[np.float64]) -> float:
-    """Two-sided p of the difference of two means. Where neither has noise, only the rounding of single precision is."""
-    error, dof = _error(x, r)
-    gap = abs(float(x.mean() - r.mean()))
-    if error == 0:
-        return 0.0 if gap > 1e-6 * abs(float(r.mean())) else 1.0
-    return max(0.0, 1.0 - t_inside(gap / error, dof))
-
-
-def _difference(x: NDArray[np.float64], r: NDArray[np.float64]) -> statistics.Interval:
-    error, dof = _error(x, r)
-    gap, half = float(x.mean() - r.mean()), t_quantile(0.975, dof) * error
-    return statistics.Interval(gap, gap - half, gap + half)
-
-
-def _error(x: NDArray[np.float64], r: NDArray[np.float64]) -> tuple[float, int]:
-    """Standard error of the difference of the means, and its degrees of freedom."""
-    own = float(x.var(ddof=1)) / len(x)
-    if len(r) == 1:
-        return math.sqrt(own), len(x) - 1
-    return math.sqrt(own + float(r.var(ddof=1)) / len(r)), min(len(x), len(r)) - 1
+    return pictures.reshape(len(pictures), -1)

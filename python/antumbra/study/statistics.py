@@ -130,10 +130,22 @@ def variance_slope(n: ArrayLike, variances: ArrayLike, level: float = LEVEL) -> 
 
     Columns as `variances_without` gives them. The interval is the jackknife's over replicates (as in `variance`).
     """
-    found = slopes(n, variances)
+    return _jackknife(slopes(n, variances), level)
+
+
+def variance_line(n: ArrayLike, variances: ArrayLike, at: ArrayLike, level: float = LEVEL) -> Line:
+    """Power law of the standard deviation through `variances` (as in `variance_slope`), with its band at `at`."""
+    slope_of, height = _lines(n, variances)
+    x = np.asarray(at, np.float64)
+    values = (height[:, None] + slope_of[:, None] * (np.log(x) - _centre(n))) / 2
+    return _band(x, [_jackknife(column, level) for column in values.T])
+
+
+def _jackknife(found: NDArray[np.float64], level: float) -> Interval:
+    """Of a quantity found from all replicates (first) and without each in turn: K θ − (K−1) θ₍ₖ₎ are its pseudo-values."""
     count = len(found) - 1
-    pseudo = mean(count * found[0] - (count - 1) * found[1:], level)
-    return Interval(float(found[0]), float(found[0]) - pseudo.half, float(found[0]) + pseudo.half)
+    half = mean(count * found[0] - (count - 1) * found[1:], level).half
+    return Interval(float(found[0]), float(found[0]) - half, float(found[0]) + half)
 
 
 def normal_variance(numbers: ArrayLike, level: float = LEVEL) -> Interval:
@@ -215,8 +227,12 @@ def line(n: ArrayLike, errors: ArrayLike, at: ArrayLike, level: float = LEVEL) -
     slope_of, height = _lines(n, errors)
     x = np.asarray(at, np.float64)
     values = height[:, None] + slope_of[:, None] * (np.log(x) - _centre(n))
-    bands = [mean(column, level) for column in values.T]
-    return Line(x, *(np.exp([getattr(b, end) for b in bands]) for end in ("value", "low", "high")))
+    return _band(x, [mean(column, level) for column in values.T])
+
+
+def _band(x: NDArray[np.float64], logs: list[Interval]) -> Line:
+    ends = np.exp(np.array(logs))
+    return Line(x, ends[:, 0], ends[:, 1], ends[:, 2])
 
 
 def efficiency(variance_of_one: Interval, seconds: Interval | float) -> Interval:

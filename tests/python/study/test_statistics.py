@@ -108,6 +108,13 @@ def test_the_band_of_a_line_lies_about_it():
     errors = np.exp(random.normal(0, 0.1, (8, 3))) * 2 / n
     found = st.line(n, errors, [1, 4, 16])
     assert (found.low < found.value).all() and (found.value < found.high).all()
+    x = random.normal(0, 1, (3, 8, 200)) / n[:, None, None] ** 0.75
+    variances = np.stack([st.variances_without(v) for v in x], axis=1)
+    spread = st.variance_line(n, variances, n)
+    assert (spread.low < n**-0.75).all() and (n**-0.75 < spread.high).all()
+    assert np.diff(np.log(spread.value)) * 2 == pytest.approx(
+        st.variance_slope(n, variances).value * np.diff(np.log(n))
+    )
     assert np.diff(np.log(found.value)) == pytest.approx(st.slope(n, errors).value * np.diff(np.log(n)))
 
 

@@ -1,0 +1,193 @@
+"""One study while it runs: reference, then row after row, each of K renders with different seeds."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Callable, Iterator
+from os import PathLike
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from antumbra import __version__, settings
+from antumbra.errors import OptionError
+from antumbra.study import renders
+from antumbra.study.files import check_folder, finished_rows, keep, write
+from antumbra.study.plan import Plan, Variant
+from antumbra.study.renders import Step, Work
+from antumbra.study.result import Study
+from antumbra.study.rows import Reference, Row, measured
+from antumbra.study.sources import Source
+
+# A test of bias whose interval is wider than this, as a part of the mean, is worth a note.
+_BLUNT = 0.05
+
+
+class StudyStopped(KeyboardInterrupt):
+    """Ctrl-C during a study; `study` holds the rows that were done."""
+
+    def __init__(self, study: Study) -> None:
+        """Keeps the work so far."""
+        super().__init__("stopped")
+        self.study = study
+
+
+class Job:
+    """Made of a checked plan; `settle_reference`, then `run`."""
+
+    def __init__(self, made: Plan, source: Source, watch: Callable[[Step], object] | None) -> None:
+        """Opens the first scene: what is wrong with it is told before anything is rendered."""
+        source.check(v.parameters for v in made.variants)
+        self.plan, self.source, self.work = made, source, Work(source.open, watch)
+        self.truths = list(dict.fromkeys(v.truth() for v in made.variants))
+        self.given: Reference | None = None
+        self.by, self.rays = "", 0
+        self.warnings: list[tuple[str, str, str]] = []
+        first = made.variants[0]
+        width, height = self.work.scene(first.parameters)._core.picture_size(list(first.words.items()))
+        self.size = (width, height)
+
+    def settle_reference(self, given: Any, error: Any, rays: int | None) -> None:
+        """Finds out what the reference is to be, and whether it fits."""
+        by = given if isinstance(given, str) and not is_file(given) else ""
+        if given is None:
+            by = renders.other_kind(self.plan)
+        if error is not None and (given is None or by):
+            raise OptionError("standard errors of a reference belong to one that is a file")
+        if by:
+            settings.words({"estimator": by})
+        renders.check_shows(self.plan, by)
+        if by:
+            self.by, self.rays = by, rays or 0
+            if by in renders.estimators(self.plan):
+                self._warn(
+                    f"the reference is of the same kind as a variant ({by}): an error of both does not show"
+                )
+        elif given is not None:
+            self.given = self._picture(given, error)
+        else:
+            self._warn("there is no estimator of another kind: no reference, only the variance is measured")
+
+    def _warn(self, what: str) -> None:
+        self.warnings.append(("warning", "", what))
+
+    def _picture(self, given: Any, error: Any) -> Reference:
+        if len(self.truths) > 1:
+            raise OptionError(
+                "one picture cannot be the reference of variants that show different things: name an estimator"
+            )
+        if isinstance(given, (str, PathLike)):
+            return renders.reference_of(given, error, self.size)
+        array = np.asarray(given, np.float64)
+        if array.shape != (self.size[1], self.size[0], 3):
+            raise OptionError(
+                f"reference has shape {array.shape}: {(self.size[1], self.size[0], 3)} is needed"
+            )
+        return Reference("a given picture, taken as exact", array[None])
+
+    def run(self, folder: Path | None) -> Study:
+        """Renders everything that the folder does not hold already. Raises StudyStopped with what is finished."""
+        if folder is not None:
+            check_folder(folder)
+        kept = {} if folder is None else {key_of(r): r for r in finished_rows(folder, self.fingerprint())}
+        rows: list[Row] = []
+        try:
+            self.plan = renders.within_budget(self.plan, self.work)
+            for row in self._rows(kept):
+                rows.append(row)
+                if folder is not None:
+                    keep(self._study(rows, False), folder)
+        except KeyboardInterrupt:
+            study = self._study(rows, False)
+            if folder is not None and rows:
+                write(study, folder)
+            raise StudyStopped(study) from None
+        study = self._study(rows, True)
+        if folder is not None:
+            write(study, folder)
+        return study
+
+    def _rows(self, kept: dict[str, Row]) -> Iterator[Row]:
+        words = renders.reference_words(self.plan, self.by, self.rays) if self.by else None
+        ahead = [v for v in self.plan.variants if self._key(v) not in kept]
+        self.work.plan(renders.cost(ahead, self.plan.seeds, words))
+        for number, truth in enumerate(self.truths):
+            reference = self.given
+            for variant in (v for v in self.plan.variants if v.truth() == truth):
+                if self._key(variant) in kept:
+                    yield kept[self._key(variant)]
+                    continue
+                if words is not None and reference is None:
+                    reference = renders.reference_by(variant, words, self.work)
+                yield self._row(variant, reference, number)
+
+    def _row(self, variant: Variant, reference: Reference | None, truth: int) -> Row:
+        said = " ".join(variant.values.values())
+        pictures, seconds, rays = [], [], 0.0
+        for k in range(self.plan.seeds):
+            what = f"{said}, seed {k + 1} of {self.plan.seeds}"
+            image = self.work.render(variant.parameters, variant.words, self.plan.first_seed + k, what)
+            pictures.append(image.pixels)
+            seconds.append(image.seconds)
+            rays += renders.rays_per_pixel(image) / self.plan.seeds
+        viewing, shadow = renders.numbers_of_rays(variant.words)
+        return measured(
+            renders.stacked(pictures), seconds, reference,
+            values=variant.values, n=self._n(variant), budget=variant.budget, truth=truth,
+            viewing_rays=viewing, shadow_rays=shadow, rays=rays,
+        )  # fmt: skip
+
+    def _n(self, variant: Variant) -> float | None:
+        if self.plan.axis == "budget":
+            return variant.budget
+        return float(variant.values[self.plan.axis]) if self.plan.axis else None
+
+    def _key(self, variant: Variant) -> str:
+        return json.dumps([variant.values, variant.budget], sort_keys=True)
+
+    def fingerprint(self) -> str:
+        """Equal for two studies whose rows may be mixed: the same scene, settings, seeds and reference."""
+        if not self.source.identity:
+            return ""
+        given = self.given.pictures.tobytes() if self.given else b""
+        whole = [
+            __version__, self.source.identity, self.plan.fixed, self.plan.seeds, self.plan.first_seed, self.by,
+            self.rays, sorted(self.plan.variants[0].parameters.items() - _varied(self.plan)),
+            hashlib.sha256(given).hexdigest(), self.plan.budget,
+        ]  # fmt: skip
+        return hashlib.sha256(json.dumps(whole).encode()).hexdigest()[:16]
+
+    def _study(self, rows: list[Row], complete: bool) -> Study:
+        plan = self.plan
+        viewing = renders.reference_words(plan, self.by, self.rays)["viewing_rays"] if self.by else ""
+        name = self.given.name if self.given else renders.reference_name(self.by, viewing) if self.by else ""
+        return Study(
+            scene=self.source.name, size=self.size, seeds=plan.seeds, axis=plan.axis, varied=plan.varied,
+            fixed=plan.fixed, reference=name, rows=list(rows), complete=complete, budget=plan.budget,
+            messages=[*self.warnings, *self.work.messages, *_about_reference(rows)], fingerprint=self.fingerprint(),
+        )  # fmt: skip
+
+
+def key_of(row: Row) -> str:
+    """Which variant a row is of."""
+    return json.dumps([row.values, row.budget], sort_keys=True)
+
+
+def is_file(given: str) -> bool:
+    """Whether a reference is meant as a file: it exists, or its name has a dot or a slash."""
+    return Path(given).exists() or "." in given or "/" in given
+
+
+def _varied(plan: Plan) -> set[tuple[str, float]]:
+    return {(n[2:], float(v)) for n, values in plan.varied.items() if n.startswith("D.") for v in values}
+
+
+def _about_reference(rows: list[Row]) -> list[tuple[str, str, str]]:
+    """A warning where the test of bias is blunt."""
+    blunt = max((r.bias.difference.half / abs(r.mean) for r in rows if r.bias and r.mean), default=0.0)
+    if blunt <= _BLUNT:
+        return []
+    what = f"with this noise a bias below {100 * blunt:.2g} % of the mean cannot be seen: more seeds or reference rays help"
+    return [("note", "", what)]

@@ -1,0 +1,129 @@
+"""One row of a study: what K pictures of one variant, rendered with different seeds, say."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import asdict, dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from antumbra.study import statistics
+from antumbra.study.bias import Bias, bias
+from antumbra.study.statistics import Interval
+
+Pictures = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Reference:
+    """What the variants are held against: R pictures (R, H, W, 3) whose mean it is, or one with its standard error.
+
+    `name` says what it is. `error` (H, W, 3) is None for replicates, whose spread says it, and where it is unknown.
+    """
+
+    name: str
+    pictures: Pictures
+    error: Pictures | None = None
+
+    @property
+    def mean(self) -> Pictures:
+        """The picture, (H, W, 3)."""
+        found: Pictures = self.pictures.mean(axis=0)
+        return found
+
+    @property
+    def variance(self) -> float:
+        """Variance of its own noise, averaged over the cells; 0 where nothing is known of it."""
+        if self.error is not None:
+            return float((self.error**2).mean())
+        if len(self.pictures) == 1:
+            return 0.0
+        return float(self.pictures.var(axis=0, ddof=1).mean()) / len(self.pictures)
+
+
+@dataclass(frozen=True)
+class Row:
+    """A variant and its numbers. Radiance in W·m⁻²·sr⁻¹, errors averaged over pixels and channels, intervals 95 %.
+
+    `values`: what was varied; `n`: its place on the axis; `budget`: what it was to spend, if there was one; `rays`: of
+    any kind that were traced per pixel; `seconds` per picture; `mse` and `bias` against the reference, whose own
+    `reference_variance` is taken off `mse` (None without one); `efficiency` = 1/(variance × seconds). `squared`:
+    squared error of each seed; `variances`: of all seeds, and without each in turn. `truth`: which of the references.
+    """
+
+    values: dict[str, str]
+    n: float | None
+    viewing_rays: int
+    shadow_rays: int
+    rays: float
+    seconds: Interval
+    variance: Interval
+    efficiency: Interval
+    mean: float
+    truth: int
+    variances: list[float]
+    squared: list[float]
+    budget: float | None = None
+    mse: Interval | None = None
+    reference_variance: float = 0.0
+    bias: Bias | None = None
+
+    @property
+    def rmse(self) -> Interval | None:
+        """Root of `mse`."""
+        return statistics.root(self.mse) if self.mse else None
+
+    @property
+    def noisy(self) -> bool:
+        """Whether its seeds differ at all; a regular grid has the same error each time."""
+        return self.variance.value > 0
+
+    def as_json(self) -> dict[str, Any]:
+        """Plain numbers, for `Row.of_json`."""
+        return asdict(self)
+
+    @classmethod
+    def of_json(cls, plain: dict[str, Any]) -> Row:
+        """The row that `as_json` wrote."""
+        found = dict(plain)
+        for name in ("seconds", "variance", "efficiency", "mse"):
+            found[name] = None if plain[name] is None else _interval(plain[name])
+        if plain["bias"] is not None:
+            flagged, p, difference, tile = plain["bias"]
+            found["bias"] = Bias(flagged, p, _interval(difference), tuple(tile) if tile else None)
+        return cls(**found)
+
+
+def _interval(ends: list[float | None]) -> Interval:
+    """Of JSON, which has null for a number that is not finite."""
+    value, low, high = (math.nan if end is None else end for end in ends)
+    return Interval(value, low, high)
+
+
+def measured(pictures: Pictures, seconds: list[float], reference: Reference | None, **about: Any) -> Row:
+    """The row of K pictures (K, H, W, 3) and their times; `about`: the fields that say which variant it is."""
+    variance, time = statistics.variance(pictures), statistics.mean(seconds)
+    row = {
+        **about,
+        "seconds": Interval(time.value, max(time.low, 0.0), time.high),
+        "variance": variance,
+        "efficiency": statistics.efficiency(variance, time),
+        "mean": float(pictures.mean()),
+        "variances": [float(v) for v in statistics.variances_without(pictures)],
+        "squared": [],
+    }
+    if reference is not None:
+        squared = statistics.squared_errors(pictures, reference.mean, reference.variance)
+        row |= {
+            "squared": [float(e) for e in squared],
+            "mse": statistics.mse_of(squared),
+            "reference_variance": reference.variance,
+            "bias": bias(
+                pictures,
+                reference.pictures if len(reference.pictures) > 1 else reference.pictures[0],
+                reference.error,
+            ),
+        }
+    return Row(**row)

@@ -1,0 +1,91 @@
+"""Where a study's scenes come from: a name, a file, a Scene, or a function of parameters."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from antumbra import _core
+from antumbra.errors import OptionError
+
+if TYPE_CHECKING:
+    from antumbra.scene import Scene
+
+Parameters = Mapping[str, float]
+
+
+class Source(NamedTuple):
+    """`open` makes the scene of given parameters; `name` for people; `identity`: equal = the same scene, if not empty.
+
+    `builtin`: the name whose parameters can be checked beforehand; `fixed`: it has no parameters.
+    """
+
+    open: Callable[[Parameters], Scene]
+    name: str
+    identity: str = ""
+    builtin: str = ""
+    fixed: bool = False
+
+    def check(self, parameters: Iterable[Parameters]) -> None:
+        """Raises OptionError if a parameter is unknown or out of its range."""
+        for each in parameters:
+            if self.fixed and each:
+                raise OptionError(f"D.{next(iter(each))}: {self.name} has no parameters")
+            if self.builtin:
+                _check(self.builtin, each)
+
+
+def source(scene: Any) -> Source:
+    """Of what `antumbra.study.run` takes."""
+    from antumbra.scene import Scene
+
+    if isinstance(scene, Scene):
+        return Source(lambda _: scene, scene.name, fixed=True)
+    if callable(scene):
+        return Source(scene, getattr(scene, "__name__", "scene").strip("<>"))
+    if Path(scene).exists() or "." in scene or "/" in scene:
+        return file(str(scene))
+    known = [name for name, _, _ in _core.builtins()]
+    if scene not in known:
+        near = _core.nearest(scene, known)
+        hint = f'; did you mean "{near}"?' if near else ""
+        raise OptionError(f'there is no scene "{scene}"{hint} ({", ".join(known)}; a file has a dot)')
+    return Source(lambda given: _built_in(scene, given), scene, f"built-in {scene}", builtin=scene)
+
+
+def file(path: str, up_axis: str | None = None, files_from: str | None = None) -> Source:
+    """A scene of a file."""
+    from antumbra.scene import load
+
+    at = Path(path)
+    state = f"{at.stat().st_size} {at.stat().st_mtime_ns}" if at.exists() else ""
+    identity = f"{at.resolve()} {state} {up_axis} {files_from}"
+    opened: list[Scene] = []
+
+    def once(_: Parameters) -> Scene:
+        if not opened:
+            opened.append(load(path, up_axis=up_axis, files_from=files_from))
+        return opened[0]
+
+    return Source(once, at.name, identity, fixed=True)
+
+
+def _built_in(name: str, parameters: Parameters) -> Scene:
+    from antumbra.scene import builtin
+
+    return builtin(name, **{key.replace("-", "_"): value for key, value in parameters.items()})
+
+
+def _check(scene: str, given: Parameters) -> None:
+    (known,) = (parameters for name, _, parameters in _core.builtins() if name == scene)
+    ranges = {name: (low, high) for name, _, low, high, _ in known}
+    for name, value in given.items():
+        if name not in ranges:
+            near = _core.nearest(name, list(ranges))
+            hint = f'; did you mean "{near}"?' if near else ""
+            listed = ", ".join(ranges) or "none"
+            raise OptionError(f'{scene} has no parameter "{name}"{hint} (it has: {listed})')
+        low, high = ranges[name]
+        if not low <= value <= high:
+            raise OptionError(f"D.{name}={value:g}: {scene} takes {low:g} to {high:g}")
