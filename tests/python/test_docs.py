@@ -68,4 +68,6 @@ def test_commands_of_the_pages(page, line, room, capsys):
     words = shlex.split(line, comments=True)[1:]
     if words[0] == "render" and "--help" not in words:
         words += COARSE
+    if words[0] == "study":
+        words += ["--size", "16x12", "--seeds", "3"]
     assert run(words) == 0, f"{page}: {line}\n{capsys.readouterr().err}"

@@ -7,7 +7,7 @@ import sys
 
 import pytest
 
-HEAVY = {"numpy", "rich", "matplotlib", "flip_evaluator", "PIL"}
+HEAVY = {"numpy", "rich", "matplotlib", "flip_evaluator", "PIL", "jinja2"}
 AFTER = "; import sys; print(*sys.modules, file=sys.stderr)"
 
 
@@ -27,6 +27,7 @@ def verb(*arguments: str) -> str:
         "import antumbra",
         verb("--help"),
         verb("render", "--help"),
+        verb("study", "--help"),
         verb("--version"),
         verb("info", "--list"),
         verb("info", "corner"),

@@ -11,7 +11,7 @@ import click
 
 from antumbra.settings import Setting, as_typed, table
 
-GROUPS = ("Light", "Camera", "Sampling", "Looks", "Files", "Teaching", "Run")
+GROUPS = ("Study", "Light", "Camera", "Sampling", "Looks", "Files", "Teaching", "Run")
 _COLUMN = 25
 
 

@@ -27,7 +27,7 @@ def open_scene(
     scene: str, definitions: tuple[str, ...], up_axis: str | None, files_from: str | None
 ) -> _core.Scene:
     """Reads or builds it. A path that exists wins; a name with a dot or a slash is always a file."""
-    given = [_definition(text) for text in definitions]
+    given = [definition(text) for text in definitions]
     if Path(scene).exists() or "." in scene or "/" in scene:
         if given:
             raise click.UsageError(f"-D {definitions[0]}: {scene} has no parameters")
@@ -39,7 +39,7 @@ def open_scene(
     if scene not in known:
         hint = _say.nearest_hint(scene, known)
         raise click.UsageError(f'there is no scene "{scene}"{hint} ({", ".join(known)}; a file has a dot)')
-    return _core.Scene.builtin(scene, [(name, _number(name, text)) for name, text in given], keep=False)
+    return _core.Scene.builtin(scene, [(name, number(name, text)) for name, text in given], keep=False)
 
 
 def tell(scene: _core.Scene, quiet: bool) -> None:
@@ -54,14 +54,16 @@ def stem(scene: str) -> str:
     return Path(scene).stem if "." in scene or "/" in scene else scene
 
 
-def _definition(text: str) -> tuple[str, str]:
+def definition(text: str) -> tuple[str, str]:
+    """NAME and VALUE of a `-D NAME=VALUE`."""
     name, equals, value = text.partition("=")
     if not equals or not name:
         raise click.UsageError(f"-D {text}: a name and its value are needed, as -D light-size=0.5")
     return name, value
 
 
-def _number(name: str, text: str) -> float:
+def number(name: str, text: str) -> float:
+    """The VALUE of a `-D` as a number."""
     try:
         return float(text)
     except ValueError:

@@ -18,6 +18,9 @@ Box = tuple[int, int, int, int]
 ALPHA = 1e-3
 # Tiles per side: a bias that is bright here and dark there must not cancel in the mean of the picture.
 TILES = 4
+# Means that vary more than this between replicates, as a part of themselves, come from few samples that found light:
+# then their spread is no measure of their noise (none of 100 rays hit a small light: no spread, and no certainty).
+MOST_SPREAD = 0.3
 
 
 class Bias(NamedTuple):
@@ -49,6 +52,8 @@ def bias(
     Each of the tiles² tiles, and the whole, has one mean per replicate. Their difference from the reference's, over
     its standard error √(s²/K + s_r²/R), is compared with Student's t of min(K, R) − 1 degrees of freedom (fewer than
     Welch's 1947, so careful). The least p of all of them, times their number (Bonferroni), must fall below `alpha`.
+    Nothing is tested where the means of single replicates spread by more than 30 %, in a tile that is black in one of
+    the two, and against a black reference: too few samples found light for their spread to measure their noise.
     """
     x, r = np.asarray(replicates, np.float64), np.asarray(reference, np.float64)
     r = r[None] if r.ndim == x.ndim - 1 else r
@@ -64,22 +69,29 @@ def bias(
     boxes = _boxes(x.shape[1], x.shape[2], tiles)
     places: list[Box | None] = [None, *(boxes if len(boxes) > 1 else [])]
     gaps = [_gap(_cells(x, place), _cells(r, place), _cells(own, place)) for place in places]
-    tests = [gap.p() for gap in gaps]
+    tests = [
+        1.0 if gap.black and (place or not r.any()) else gap.p()
+        for gap, place in zip(gaps, places, strict=True)
+    ]
     best = min(range(len(tests)), key=tests.__getitem__)
     p = min(1.0, tests[best] * len(tests))
     return Bias(p < alpha, p, gaps[0].interval(), places[best])
 
 
 class _Gap(NamedTuple):
-    """A difference of two means, its standard error and degrees of freedom, and the size of the mean itself."""
+    """A difference of two means, its standard error and degrees of freedom, the larger mean, the worst spread."""
 
     value: float
     error: float
     dof: int
     mean: float
+    spread: float
+    black: bool
 
     def p(self) -> float:
         """Two-sided p. Where neither has noise, only the rounding of single precision is forgiven."""
+        if self.spread > MOST_SPREAD:
+            return 1.0
         if self.error == 0:
             return 0.0 if abs(self.value) > 1e-6 * abs(self.mean) else 1.0
         return max(0.0, 1.0 - t_inside(abs(self.value) / self.error, self.dof))
@@ -98,7 +110,23 @@ def _gap(x: NDArray[np.float64], r: NDArray[np.float64], own: NDArray[np.float64
     if len(b) > 1:
         square += float(b.var(ddof=1)) / len(b)
         dof = min(dof, len(b) - 1)
-    return _Gap(float(a.mean() - b.mean()), math.sqrt(square), dof, float(b.mean()))
+    mean = max(abs(float(a.mean())), abs(float(b.mean())))
+    return _Gap(
+        float(a.mean() - b.mean()),
+        math.sqrt(square),
+        dof,
+        mean,
+        max(_spread(a), _spread(b)),
+        not (a.any() and b.any()),
+    )
+
+
+def _spread(means: NDArray[np.float64]) -> float:
+    """Standard deviation of the means of single replicates, over their mean; of one alone nothing is known."""
+    if len(means) == 1:
+        return 0.0
+    centre = abs(float(means.mean()))
+    return float(means.std(ddof=1)) / centre if centre else 0.0
 
 
 def _boxes(height: int, width: int, tiles: int) -> list[Box]:

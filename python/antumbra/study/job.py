@@ -43,6 +43,7 @@ class Job:
         self.plan, self.source, self.work = made, source, Work(source.open, watch)
         self.truths = list(dict.fromkeys(v.truth() for v in made.variants))
         self.given: Reference | None = None
+        self.command = ""
         self.by, self.rays = "", 0
         self.warnings: list[tuple[str, str, str]] = []
         first = made.variants[0]
@@ -167,6 +168,7 @@ class Job:
             scene=self.source.name, size=self.size, seeds=plan.seeds, axis=plan.axis, varied=plan.varied,
             fixed=plan.fixed, reference=name, rows=list(rows), complete=complete, budget=plan.budget,
             messages=[*self.warnings, *self.work.messages, *_about_reference(rows)], fingerprint=self.fingerprint(),
+            command=self.command,
         )  # fmt: skip
 
 
@@ -189,5 +191,5 @@ def _about_reference(rows: list[Row]) -> list[tuple[str, str, str]]:
     blunt = max((r.bias.difference.half / abs(r.mean) for r in rows if r.bias and r.mean), default=0.0)
     if blunt <= _BLUNT:
         return []
-    what = f"with this noise a bias below {100 * blunt:.2g} % of the mean cannot be seen: more seeds or reference rays help"
+    what = f"a bias below {100 * blunt:.2g} % of the mean is hidden by noise here: more seeds or reference rays help"
     return [("note", "", what)]

@@ -94,7 +94,7 @@ def plan(
     _check_fixed(varied, words, parameters)
     if seeds < LEAST_SEEDS:
         raise OptionError(
-            f"seeds = {seeds}: at least {LEAST_SEEDS} are needed to know a variance and its error"
+            f"{seeds} seeds: at least {LEAST_SEEDS} are needed to know a variance and its error"
         )
     counted, amounts = _budget(budget)
     chosen = _chosen(varied, words) if counted else ""

@@ -3,8 +3,8 @@
 >>> from antumbra.study.plot import Curve, error_curves
 >>> random = Curve("random", [1, 9, 36, 100], [1, 1 / 3, 1 / 6, 1 / 10], note="slope −0.5")
 >>> svg = error_curves([random], x_title="shadow rays", y_title="RMSE", label="RMSE falls as 1/√N.")
->>> svg[:60]
-'<svg class="plot" viewBox="0 0 620 440" role="img" aria-label'
+>>> svg[:50]
+'<svg class="plot" viewBox="0 0 620 440" role="img"'
 
 Classes of the elements: `ax` axis, `gr` hairline, `s` soft text; and in a group `<g data-s="NAME" class="on">` per
 curve (`on`: the chosen one): `ln` line, `bd` band, `eb` error bar, `mk` mark (`mk h`: hollow), `fine` second label.
@@ -276,10 +276,11 @@ def _span(values: Sequence[float], is_log: bool, margin: float) -> tuple[float, 
     if is_log:
         wide = max(math.log(high / low), math.log(2) if margin else 0.0)
         middle = math.sqrt(low * high)
-        half = math.exp(wide * (0.5 + margin)) if wide else 1.5
+        half = math.exp(wide * (0.5 + margin)) if wide else 2.0
         return middle / half, middle * half
-    wide = high - low or 1.0
-    return low - margin * wide, high + margin * wide
+    if low == high:
+        return low - 0.5, high + 0.5
+    return low - margin * (high - low), high + margin * (high - low)
 
 
 def _decades(low: float, high: float, is_log: bool) -> list[float]:

@@ -24,7 +24,7 @@ class Study:
 
     `rows`: one per variant; `axis`: what is on the axis of the plots (a setting, `budget`, or nothing); `varied`: the
     names and values; `reference`: what it was held against, in words; `messages`: notes and warnings (level, place,
-    text); `complete`: False if it was stopped before all rows were done.
+    text); `complete`: False if it was stopped before all rows were done; `command`: how it was called, if known.
     """
 
     scene: str
@@ -39,6 +39,7 @@ class Study:
     complete: bool = True
     budget: str = ""
     fingerprint: str = ""
+    command: str = ""
 
     def curves(self) -> dict[str, list[Row]]:
         """The rows of each curve in the order of the axis, by name: the values that are not on the axis."""
@@ -58,9 +59,9 @@ class Study:
         return [r for r in self.rows if r.bias is not None and r.bias.flagged]
 
     def error(self, row: Row) -> Interval | None:
-        """Root mean square error of a row: without bias it is the standard deviation over seeds, which needs no reference.
+        """Root mean square error of a row: without bias, the standard deviation over seeds, which needs no reference.
 
-        Where a bias was found in the row's curve, or where seeds make no difference, it is taken against the reference.
+        Where a bias was found in the row's curve, or seeds make no difference, it is taken against the reference.
         """
         if self._unbiased(self.curves()[self.name_of(row)]):
             return statistics.root(row.variance)
@@ -94,7 +95,8 @@ class Study:
 
     def _curve(self, name: str, rows: Sequence[Row], over: str) -> Curve:
         x = [r.seconds.value if over == "seconds" else r.n or 0.0 for r in rows]
-        errors = [self.error(r) or Interval(math.nan, math.nan, math.nan) for r in rows]
+        nothing = Interval(math.nan, math.nan, math.nan)
+        errors = [e if e and e.value > 0 else nothing for e in map(self.error, rows)]
         y, low, high = ([float(e[i]) for e in errors] for i in range(3))
         bars = (low, high) if all(r.noisy for r in rows) else ([], [])
         slope = self.slope(name) if over == "axis" else None
@@ -120,7 +122,7 @@ class Study:
             "varied": self.varied, "fixed": self.fixed, "budget": self.budget, "reference": self.reference,
             "complete": self.complete, "messages": [list(m) for m in self.messages],
             "variance_slopes": {name: self.slope(name) for name in self.curves()},
-            "rows": [row.as_json() for row in self.rows], "fingerprint": self.fingerprint,
+            "rows": [row.as_json() for row in self.rows], "command": self.command, "fingerprint": self.fingerprint,
         }  # fmt: skip
         return json.dumps(_plain(whole), indent=1, ensure_ascii=False) + "\n"
 

@@ -33,6 +33,7 @@ def run(
     parameters: Mapping[str, float] | None = None,
     folder: str | PathLike[str] | None = None,
     progress: Callable[[Step], object] | None = None,
+    command: str = "",
     **options: Any,
 ) -> Study:
     """Measures the error of several ways of rendering a scene, each from `seeds` independent renders.
@@ -47,7 +48,7 @@ def run(
     (default: at least 16 times the largest variant's). None chooses an estimator. Its own noise is taken off.
 
     `folder`: where results.csv, results.json and index.html go; rows that an earlier, stopped run of the same study
-    left there are kept. `progress` is called with a `Step`.
+    left there are kept. `progress` is called with a `Step`. `command`: how this was called, for the page.
 
     Raises ValueError before anything is rendered for what cannot be varied, OSError for a folder that cannot be
     written, `StudyStopped` (a KeyboardInterrupt) with `.study` on Ctrl-C.
@@ -58,6 +59,7 @@ def run(
     """
     made = plan(vary, options, parameters=_dashed(parameters or {}), budget=budget or {}, seeds=seeds)
     job = Job(made, scene if isinstance(scene, Source) else source(scene), progress)
+    job.command = command
     job.settle_reference(reference, reference_error, reference_rays)
     return job.run(None if folder is None else Path(fspath(folder)))
 

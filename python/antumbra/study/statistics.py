@@ -50,7 +50,8 @@ def plus_minus(value: float, half: float) -> str:
         return f"({inner}) · {power_of_ten(scale)}"
     power = math.floor(math.log10(half))
     digits = max(0, -power + (half < 2 * 10.0**power))
-    return _minus(f"{value:,.{digits}f} ± {half:,.{digits}f}")
+    shown = f"{value:,.{digits}f}"
+    return _minus(f"{shown if float(shown.replace(',', '')) else shown.lstrip('-')} ± {half:,.{digits}f}")
 
 
 def _minus(text: str) -> str:
@@ -142,7 +143,7 @@ def variance_line(n: ArrayLike, variances: ArrayLike, at: ArrayLike, level: floa
 
 
 def _jackknife(found: NDArray[np.float64], level: float) -> Interval:
-    """Of a quantity found from all replicates (first) and without each in turn: K θ − (K−1) θ₍ₖ₎ are its pseudo-values."""
+    """Of a quantity θ found from all replicates (first) and without each: its pseudo-values are K θ − (K−1) θ₍ₖ₎."""
     count = len(found) - 1
     half = mean(count * found[0] - (count - 1) * found[1:], level).half
     return Interval(float(found[0]), float(found[0]) - half, float(found[0]) + half)

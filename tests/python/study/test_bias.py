@@ -42,6 +42,14 @@ def test_a_bias_that_cancels_in_the_mean_is_found_where_it_is():
     assert found.flagged and found.tile in {(0, 0, 4, 4), (12, 12, 4, 4)}
 
 
+def test_a_reference_that_found_the_light_by_luck_accuses_nobody():
+    # A light that one of 1,000 directions hits: most tiles of the reference are black, with no spread at all.
+    random = np.random.default_rng(4)
+    for _ in range(100):
+        lucky = 1e3 * (random.uniform(size=(6, 16, 16)) < 1e-3)
+        assert not bias(noisy(random, 6, np.ones((16, 16)), 0.1), lucky).flagged
+
+
 def test_without_noise_only_a_real_difference_counts():
     same = np.stack([TRUTH] * 3)
     assert not bias(same, TRUTH).flagged

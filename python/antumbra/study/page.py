@@ -1,0 +1,177 @@
+"""The page of a study, and its short form for a notebook."""
+
+from __future__ import annotations
+
+import math
+from functools import cache
+from typing import TYPE_CHECKING, Any
+
+from antumbra.study import plot
+from antumbra.study.statistics import Interval, plus_minus, ratio
+
+if TYPE_CHECKING:
+    import jinja2
+
+    from antumbra.study.result import Study
+    from antumbra.study.rows import Row
+
+RADIANCE = "W·m⁻²·sr⁻¹"
+
+
+def page(study: Study) -> str:
+    """The whole page in one file."""
+    return _environment().get_template("page.html.j2").render(_facts(study))
+
+
+def fragment(study: Study) -> str:
+    """Plot and table alone, with styles that touch nothing else."""
+    return _environment().get_template("fragment.html.j2").render(_facts(study))
+
+
+@cache
+def _environment() -> jinja2.Environment:
+    import jinja2
+
+    loader = jinja2.PackageLoader("antumbra.study", "templates")
+    return jinja2.Environment(
+        loader=loader, autoescape=True, trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined
+    )
+
+
+def short_table(study: Study) -> list[str]:
+    """One line per curve for a terminal: its slope, and its last row."""
+    lines = [("", "slope of the variance", "RMSE", "bias")]
+    for name, rows in study.curves().items():
+        slope, last = study.slope(name), rows[-1]
+        at = "" if last.n is None else f" at {_short(f'{last.n:.12g}')}"
+        biased = any(r.bias is not None and r.bias.flagged for r in rows)
+        lines.append(
+            (name, str(slope or "–"), f"{study.error(last) or '–'}{at}", "biased" if biased else _bias(last))
+        )
+    widths = [max(len(line[i]) for line in lines) for i in range(4)]
+    return [
+        "  " + "   ".join(text.ljust(w) for text, w in zip(line, widths, strict=True)).rstrip()
+        for line in lines
+    ]
+
+
+def _facts(study: Study) -> dict[str, Any]:
+    best = study.most_efficient()
+    return {
+        "study": study,
+        "plot_css": plot.CSS,
+        "over_axis": _plot(study, "axis") if study.axis else "",
+        "over_seconds": _plot(study, "seconds"),
+        "slopes": [(name, slope, _against_independent(slope)) for name, slope in _slopes(study)],
+        "rows": [_line(study, row) for row in study.rows],
+        "best": study.name_of(best) if best else "",
+        "biased": [_biased(study, row) for row in study.flagged()],
+        "axis": axis_title(study),
+        "varied": [(_dashed(name), [_short(v) for v in values]) for name, values in study.varied.items()],
+        "fixed": [(_dashed(name), value) for name, value in study.fixed.items()],
+        "radiance": RADIANCE,
+    }
+
+
+def axis_title(study: Study) -> str:
+    """What the numbers below the plot are of."""
+    budgets = {"rays": "budget, rays per pixel", "seconds": "budget, seconds per picture"}
+    known = {"shadow_rays": "shadow rays, N", "viewing_rays": "viewing rays per pixel, N"}
+    if study.axis == "budget":
+        return budgets[study.budget]
+    return known.get(study.axis, _dashed(study.axis))
+
+
+def _plot(study: Study, over: str) -> str:
+    best = study.most_efficient()
+    of_time = over == "seconds"
+    title = "seconds per picture" if of_time else axis_title(study)
+    numbers = study.axis in ("shadow_rays", "viewing_rays", "budget")
+    curves = [c for c in study.plot_curves(over) if any(map(math.isfinite, c.y))]
+    if not curves:
+        return ""
+    said = "; ".join(f"{c.name}: {c.note or 'not fitted'}" for c in curves)
+    return plot.error_curves(
+        curves,
+        x_title=title,
+        y_title=f"RMSE, {RADIANCE}",
+        label=f"RMSE against {title}. {said}.",
+        chosen=study.name_of(best) if best else None,
+        x_ticks=None if not of_time else _decades([x for c in curves for x in c.x]),
+        logarithmic=(of_time or numbers, True),
+    )
+
+
+def _decades(values: list[float]) -> list[float]:
+    low, high = (math.log10(f(v for v in values if v > 0)) for f in (min, max))
+    ticks = [m * 10.0**p for p in range(math.floor(low), math.ceil(high) + 1) for m in (1, 3)]
+    return [t for t in ticks if 10**low * 0.999 <= t <= 10**high * 1.001]
+
+
+def _slopes(study: Study) -> list[tuple[str, Interval]]:
+    found = [(name, study.slope(name)) for name in study.curves()]
+    return [(name, slope) for name, slope in found if slope is not None]
+
+
+def _against_independent(slope: Interval) -> str:
+    if slope.contains(-1.0):
+        return "as independent samples do"
+    return "faster than independent samples" if slope.high < -1 else "slower than independent samples"
+
+
+def _line(study: Study, row: Row) -> dict[str, Any]:
+    """A row of the table, in words."""
+    error = study.error(row)
+    first = study.rows[0]
+    gain = ratio(row.efficiency, first.efficiency) if row is not first else None
+    return {
+        "curve": study.name_of(row),
+        "n": "" if row.n is None else _short(f"{row.n:.12g}"),
+        "rays": f"{row.viewing_rays:,} × {row.shadow_rays:,}",
+        "traced": f"{row.rays:,.1f}",
+        "seconds": str(row.seconds),
+        "error": "below the reference's noise" if error is None or error.value <= 0 else str(error),
+        "share": f"{100 * error.value / row.mean:.2g} %" if error and row.mean else "",
+        "gain": "1" if gain is None else _times(gain),
+        "bias": _bias(row),
+        "flagged": row.bias is not None and row.bias.flagged,
+    }
+
+
+def _times(gain: Interval) -> str:
+    """A factor: `× 24 ± 2`, or with the ends of its interval where that is wide."""
+    if not math.isfinite(gain.value):
+        return "–"
+    if gain.half < 0.3 * gain.value:
+        return f"× {gain}"
+    return f"× {gain.value:.2g} ({gain.low:.2g} … {gain.high:.2g})"
+
+
+def _bias(row: Row) -> str:
+    if row.bias is None or not row.mean:
+        return "–"
+    found = row.bias.difference
+    return f"{plus_minus(100 * found.value / row.mean, 100 * found.half / abs(row.mean))} %"
+
+
+def _biased(study: Study, row: Row) -> str:
+    """What is said of a flagged row."""
+    assert row.bias is not None
+    where = ""
+    if row.bias.tile is not None:
+        x, y, width, height = row.bias.tile
+        where = f", clearest at pixels {x}…{x + width - 1}, {y}…{y + height - 1}"
+    at = f" at {_short(f'{row.n:.12g}')}" if row.n is not None else ""
+    chance = "less than 10⁻⁶" if row.bias.p < 1e-6 else f"{row.bias.p:.1g}"
+    return f"{study.name_of(row)}{at}: its mean is off by {_bias(row)}{where}; by chance: {chance}"
+
+
+def _dashed(name: str) -> str:
+    return name.removeprefix("D.").replace("_", "-")
+
+
+def _short(value: str) -> str:
+    try:
+        return f"{float(value):,.6g}"
+    except ValueError:
+        return value

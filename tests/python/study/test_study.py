@@ -1,0 +1,228 @@
+"""Studies of small built-in scenes: known slopes, planted biases, budgets, and what is kept when one is stopped.
+
+Seeds are fixed: each test has the same numbers every time. The claims have α = 5 % intervals behind them.
+"""
+
+from __future__ import annotations
+
+import json
+from html.parser import HTMLParser
+
+import numpy as np
+import pytest
+
+import antumbra as am
+from antumbra.study import StudyStopped, plan, renders
+from antumbra.study import statistics as st
+
+# One ray through the centre of each pixel, points uniform on the lights: all noise is that of the shadow rays.
+SHADOW_RAYS = {"estimator": "area", "light_points": "area", "viewing_rays": 1, "viewing": "centre"}
+
+
+def study(scene, **options):
+    return am.study.run(scene, **{"seeds": 4, "reference_rays": 32, "size": (32, 24), **options})
+
+
+@pytest.mark.parametrize("scene", ["pillars", "antumbra"])
+def test_in_penumbrae_random_falls_as_1_over_n_and_stratified_as_its_power_of_1_5(scene):
+    # Receivers: floors with the soft shadows of pillars and of balls. In a penumbra, √N of the N cells of a stratified
+    # light are cut by the shadow's edge, so the variance falls as √N/N² (Mitchell 1996). Fully lit floor falls as N⁻²,
+    # but from 4 rays on it has little of the variance. Intervals of 95 %, seeds fixed.
+    found = study(
+        scene, vary={"sampler": ["random", "stratified"], "shadow_rays": [4, 16, 64]}, reference="mis", seeds=8,
+        **{**SHADOW_RAYS, "size": (40, 30)},
+    )  # fmt: skip
+    for sampler, expected in (("random", -1.0), ("stratified", -1.5)):
+        slope = found.slope(sampler)
+        assert slope.contains(expected) and slope.half < 0.15
+    assert not found.flagged()
+
+
+def test_without_shadows_stratified_falls_as_n_to_the_minus_2(floor):
+    # A smooth integrand: in each of N cells of width 1/√N the variance is of order 1/N, so N · (1/N)/N² (Haber 1966).
+    floor_only = {**SHADOW_RAYS, "eye": (0, 1, 1), "look_at": (0, 0, 0), "fov": 0.6}
+    found = study(floor, vary={"shadow_rays": [4, 16, 64]}, sampler="stratified", seeds=6, **floor_only)
+    assert st.verdict(found.slope("area"), near=-2.0, within=0.1) == "supported"
+
+
+def test_a_planted_bias_is_flagged_and_nothing_else():
+    found = study(
+        "pillars",
+        vary={"mistake": ["none", "no-cos-light"], "shadow_rays": [1, 4]},
+        estimator="area",
+        viewing_rays=4,
+    )
+    assert {found.name_of(row) for row in found.flagged()} == {"no-cos-light"}
+    assert len(found.flagged()) == 2
+    assert found.slope("no-cos-light") is None
+    assert found.name_of(found.most_efficient()) == "mistake none"
+    # A biased error is the distance from the reference: it stays where it is.
+    errors = [found.error(row).value for row in found.curves()["no-cos-light"]]
+    assert errors[1] == pytest.approx(errors[0], rel=0.3)
+
+
+def test_estimators_of_different_kinds_agree():
+    found = study("pillars", vary={"estimator": ["area", "mis"]}, viewing_rays=16, reference="hemisphere",
+                  reference_rays=4096, size=(16, 12))  # fmt: skip
+    assert not found.flagged()
+    assert found.axis == "" and len(found.curves()) == 2
+
+
+def test_a_grid_without_noise_is_held_against_the_reference():
+    found = study("pillars", vary={"sampler": ["regular", "random"]}, reference_rays=4096, size=(16, 12),
+                  **{**SHADOW_RAYS, "shadow_rays": 4})  # fmt: skip
+    regular, random = found.rows
+    assert regular.variance.value == 0 and random.noisy
+    assert found.error(regular).value > 0
+    assert np.isnan(regular.efficiency.value)
+    assert "nan" not in found.html().lower().replace("nanum", "")
+
+
+def test_each_truth_has_its_own_reference():
+    found = study("pillars", vary={"D.light-size": [0.5, 2], "estimator": ["area"]}, viewing_rays=4)
+    assert [row.truth for row in found.rows] == [0, 1]
+    assert found.axis == "D.light-size" and [row.n for row in found.rows] == [0.5, 2.0]
+    assert not found.flagged()
+
+
+def test_a_budget_of_rays_is_spent_by_all_alike():
+    found = study("pillars", vary={"estimator": ["area", "mis"]}, budget={"rays": [12, 48]})
+    for row in found.rows:
+        # One more viewing ray brings up to 3 rays (viewing, light, direction): half of that is what rounding leaves.
+        assert abs(row.rays - row.n) <= 1.5 + 0.02 * row.n
+    assert found.axis == "budget" and found.slope("area").value < -0.5
+
+
+def test_shadow_rays_are_chosen_where_viewing_rays_are_given():
+    found = study("pillars", vary={"sampler": ["owen"]}, budget={"rays": [20]}, **SHADOW_RAYS)
+    (row,) = found.rows
+    assert row.viewing_rays == 1 and row.shadow_rays > 10
+    assert row.rays == pytest.approx(20, abs=1)
+
+
+def test_a_budget_of_seconds_is_measured_by_pilots():
+    found = study(
+        "pillars", vary={"sampler": ["random", "owen"]}, budget={"seconds": [0.05]}, estimator="area"
+    )
+    assert all(row.viewing_rays > 1 for row in found.rows)
+    # A clock on a busy machine: only the order of magnitude is a law.
+    assert all(0.05 / 10 < row.seconds.value < 0.05 * 10 for row in found.rows)
+
+
+def test_a_picture_may_be_the_reference(tmp_path):
+    scene = am.builtin("pillars")
+    truth = scene.render(estimator="mis", viewing_rays=256, size=(32, 24), seed=99)
+    truth.save(tmp_path / "truth.exr")
+    options = {"vary": {"shadow_rays": [1, 4]}, "estimator": "area", "viewing_rays": 4}
+    by_file = study("pillars", reference=str(tmp_path / "truth.exr"), **options)
+    by_array = study(scene, reference=truth.pixels, **options)
+    assert "taken as exact" in by_file.reference and "given picture" in by_array.reference
+    for row, same in zip(by_file.rows, by_array.rows, strict=True):
+        # The file has half precision: 2⁻¹¹ of each value.
+        assert row.mse.value == pytest.approx(same.mse.value, rel=0.02)
+    with pytest.raises(am.OptionError, match=r"truth\.exr is 32 × 24, the pictures of this study 16 × 12"):
+        study("pillars", reference=str(tmp_path / "truth.exr"), size=(16, 12), **options)
+
+
+SMALL = {
+    "vary": {"shadow_rays": [1, 2, 3]},
+    "estimator": "area",
+    "viewing_rays": 1,
+    "size": (8, 6),
+    "seeds": 3,
+}
+
+
+def test_what_is_written_can_be_read(tmp_path):
+    found = am.study.run("pillars", folder=tmp_path / "new" / "folder", **SMALL)
+    folder = tmp_path / "new" / "folder"
+    assert sorted(p.name for p in folder.iterdir()) == ["index.html", "results.csv", "results.json"]
+    lines = (folder / "results.csv").read_text("utf-8").splitlines()
+    assert len(lines) == 4 and lines[0].startswith("curve,shadow-rays,")
+    whole = json.loads((folder / "results.json").read_text("utf-8"))
+    assert [row["n"] for row in whole["rows"]] == [1, 2, 3] and whole["complete"]
+    page = (folder / "index.html").read_text("utf-8")
+    assert page == found.html()
+    assert "src=" not in page and "<script" not in page and "@import" not in page
+    HTMLParser().feed(page)
+    assert found._repr_html_().count("<svg") == 1
+
+
+def test_a_stopped_study_keeps_its_rows_and_goes_on(tmp_path, monkeypatch):
+    real, calls = renders.Work.render, []
+
+    def stops(self, parameters, words, seed, what):
+        calls.append(what)
+        if len(calls) == 8 + 3 + 2:
+            raise KeyboardInterrupt
+        return real(self, parameters, words, seed, what)
+
+    monkeypatch.setattr(renders.Work, "render", stops)
+    with pytest.raises(StudyStopped) as stopped:
+        am.study.run("pillars", folder=tmp_path, **SMALL)
+    assert len(stopped.value.study.rows) == 1
+    assert not json.loads((tmp_path / "results.json").read_text("utf-8"))["complete"]
+    assert "stopped before its end" in (tmp_path / "index.html").read_text("utf-8")
+    calls.clear()
+    calls.extend([""] * 100)
+    found = am.study.run("pillars", folder=tmp_path, **SMALL)
+    # The reference again, and the two rows that were missing.
+    assert len(calls) - 100 == 8 + 2 * 3
+    whole = am.study.run("pillars", **SMALL)
+    assert [r.variances for r in found.rows] == [r.variances for r in whole.rows]
+
+
+def test_progress_is_told():
+    steps = []
+    am.study.run("pillars", progress=steps.append, **SMALL)
+    done = [step.done for step in steps]
+    assert done == sorted(done) and done[0] >= 0 and done[-1] <= 1
+    assert steps[0].what.startswith("reference, seed 1 of 8")
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        ({"vary": {"samplr": ["owen"]}}, 'there is no setting "samplr" to vary; did you mean "sampler"'),
+        ({"vary": {"sampler": ["owne"]}}, 'did you mean "owen"'),
+        ({"vary": {"seed": [1, 2]}}, "the replicates are the seeds"),
+        ({"vary": {"sampler": []}}, "has no values"),
+        ({"vary": {"sampler": ["owen", "owen"]}}, "there twice"),
+        ({"vary": {"sampler": ["owen"]}, "sampler": "random"}, "also given a fixed value"),
+        ({"vary": {"D.light-sise": [1]}}, 'did you mean "light-size"'),
+        ({"vary": {"D.light-size": [100]}}, "pillars takes 0.001 to 4"),
+        ({"vary": {"estimator": ["area", "path"]}}, "find different light"),
+        ({"vary": {"sampler": ["owen"]}, "estimator": "area", "reference": "path"}, "finds all light"),
+        ({"vary": {"sampler": ["owen"]}, "reference": "pth"}, 'did you mean "path"'),
+        ({"vary": {"shadow_rays": [1]}, "viewing_rays": 1, "budget": {"rays": [9]}}, "leave one of them out"),
+        ({"vary": {"sampler": ["owen"]}, "budget": {"ray": [9]}}, 'did you mean "rays"'),
+        ({"vary": {"sampler": ["owen"]}, "budget": {"rays": [-1]}}, "above 0"),
+        ({"vary": {"sampler": ["owen"]}, "seeds": 2}, "at least 3"),
+        ({"vary": {"sampler": ["owen"]}, "aov": "normal"}, "no place in a study"),
+        ({"vary": {"D.light-size": [1, 2]}, "reference": np.zeros((24, 32, 3))}, "name an estimator"),
+        ({"vary": {"sampler": ["owen"]}, "reference": np.zeros((3, 3))}, r"\(24, 32, 3\) is needed"),
+        ({"vary": {"sampler": ["owen"]}, "reference_error": "e.exr"}, "belong to one that is a file"),
+    ],
+)
+def test_what_cannot_be_studied_is_told_before_a_ray_is_traced(options, said, monkeypatch):
+    monkeypatch.setattr(renders.Work, "render", lambda *_: pytest.fail("something was rendered"))
+    with pytest.raises(ValueError, match=said):
+        study("pillars", **options)
+
+
+def test_a_budget_that_is_too_small_is_told():
+    with pytest.raises(am.OptionError, match="needs at least"):
+        study("pillars", vary={"estimator": ["mis"]}, budget={"rays": [1]})
+
+
+def test_a_reference_of_the_same_kind_is_warned_of_and_one_is_chosen_of_another():
+    assert any("same kind" in m[2] for m in am.study.run("pillars", reference="area", **SMALL).messages)
+    made = plan.plan({"estimator": ["area", "mis"]}, {}, parameters={}, budget={}, seeds=3)
+    assert renders.other_kind(made) == "hemisphere"
+
+
+def test_occlusion_has_no_second_kind():
+    found = study("corner", vary={"shadow_rays": [4, 16]}, estimator="ambient-occlusion", viewing_rays=1)
+    assert found.reference == "" and all(row.mse is None for row in found.rows)
+    assert found.slope("ambient-occlusion").value < -0.5
+    assert "only the variance is measured" in found.html()
