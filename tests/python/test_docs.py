@@ -69,5 +69,5 @@ def test_commands_of_the_pages(page, line, room, capsys):
     if words[0] == "render" and "--help" not in words:
         words += COARSE
     if words[0] == "study":
-        words += ["--size", "16x12", "--seeds", "3"]
+        words += ["--size", "8x6", "--viewing-rays", "1", "--seeds", "3"]
     assert run(words) == 0, f"{page}: {line}\n{capsys.readouterr().err}"
