@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import shutil
 import textwrap
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any
 
 import click
@@ -36,10 +36,17 @@ class Verb(click.Command):
         arguments: Sequence[tuple[str, bool]],
         options: Iterable[Option] = (),
         groups: Iterable[str] = (),
+        own_words: Mapping[str, Sequence[str]] | None = None,
     ) -> None:
-        """`run` gets every argument and option by name, the settings given as one dict `settings`."""
+        """`run` gets every argument and option by name, the settings given as one dict `settings`.
+
+        `own_words`: of a setting with choices, those that make sense to this verb, its default first.
+        """
         own = [click.Argument([place.lower()], metavar=place, required=needed) for place, needed in arguments]
-        settings = [_option_of(s) for s in table().values() if s.group in set(groups)]
+        known = dict(table())
+        for setting, words in (own_words or {}).items():
+            known[setting] = known[setting]._replace(choices=list(words), default=words[0])
+        settings = [_option_of(s) for s in known.values() if s.group in set(groups)]
         super().__init__(name, callback=run, params=[*own, *settings, *options, *_common()], help=run.__doc__)
         self.examples = examples
         self.has_settings = bool(settings)

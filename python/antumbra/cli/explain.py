@@ -43,6 +43,7 @@ VERB = Verb(
     run,
     arguments=[("SCENE", True)],
     groups=GROUPS,
+    own_words={"estimator": ("area", "hemisphere", "mis")},
     examples=[
         ("antumbra explain pillars --pixel 358,391 --viewing-rays 1 --shadow-rays 9", ""),
         ("antumbra explain corner --pixel 200,300 --estimator hemisphere", "by directions"),
