@@ -112,7 +112,9 @@ fn files_are_one_idea() {
             faults.push(format!("{}: {lines} lines", path.display()));
         }
         let rust = path.extension().is_some_and(|e| e == "rs");
-        let opens_well = if rust { text.starts_with("//!") } else { text.starts_with("\"\"\"") };
+        // A docstring with backslashes is a raw one.
+        let docstring = text.strip_prefix('r').unwrap_or(&text).starts_with("\"\"\"");
+        let opens_well = if rust { text.starts_with("//!") } else { docstring };
         if !opens_well && !text.trim().is_empty() {
             faults.push(format!("{}: its first line does not say what it is", path.display()));
         }
