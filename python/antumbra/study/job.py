@@ -92,10 +92,11 @@ class Job:
         """Renders everything that the folder does not hold already. Raises StudyStopped with what is finished."""
         if folder is not None:
             check_folder(folder)
-        kept = {} if folder is None else {key_of(r): r for r in finished_rows(folder, self.fingerprint())}
         rows: list[Row] = []
         try:
             self.plan = renders.within_budget(self.plan, self.work)
+            found = [] if folder is None else finished_rows(folder, self.fingerprint())
+            kept = {key_of(row): row for row in found}
             for row in self._rows(kept):
                 rows.append(row)
                 if folder is not None:
@@ -155,21 +156,33 @@ class Job:
         given = self.given.pictures.tobytes() if self.given else b""
         whole = [
             __version__, self.source.identity, self.plan.fixed, self.plan.seeds, self.plan.first_seed, self.by,
-            self.rays, sorted(self.plan.variants[0].parameters.items() - _varied(self.plan)),
+            self._reference_rays(), sorted(self.plan.variants[0].parameters.items() - _varied(self.plan)),
             hashlib.sha256(given).hexdigest(), self.plan.budget,
         ]  # fmt: skip
         return hashlib.sha256(json.dumps(whole).encode()).hexdigest()[:16]
 
+    def _reference_rays(self) -> str:
+        """Viewing rays of each seed of a rendered reference."""
+        return renders.reference_words(self.plan, self.by, self.rays)["viewing_rays"] if self.by else ""
+
     def _study(self, rows: list[Row], complete: bool) -> Study:
         plan = self.plan
-        viewing = renders.reference_words(plan, self.by, self.rays)["viewing_rays"] if self.by else ""
-        name = self.given.name if self.given else renders.reference_name(self.by, viewing) if self.by else ""
+        name = renders.reference_name(self.by, self._reference_rays()) if self.by else ""
         return Study(
-            scene=self.source.name, size=self.size, seeds=plan.seeds, axis=plan.axis, varied=plan.varied,
-            fixed=plan.fixed, reference=name, rows=list(rows), complete=complete, budget=plan.budget,
-            messages=[*self.warnings, *self.work.messages, *_about_reference(rows)], fingerprint=self.fingerprint(),
+            scene=self.source.name,
+            size=self.size,
+            seeds=plan.seeds,
+            axis=plan.axis,
+            varied=plan.varied,
+            fixed=plan.fixed,
+            reference=self.given.name if self.given else name,
+            rows=list(rows),
+            messages=[*self.warnings, *self.work.messages, *_about_reference(rows)],
+            complete=complete,
+            budget=plan.budget,
+            fingerprint=self.fingerprint(),
             command=self.command,
-        )  # fmt: skip
+        )
 
 
 def key_of(row: Row) -> str:

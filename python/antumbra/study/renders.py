@@ -55,7 +55,11 @@ class Work:
         if self._scene is None or key != self._key:
             self._scene, self._key = None, key
             self._scene = self._open_scene(parameters)
-            self._say(self._scene.messages)
+            file = self._scene.name if "." in self._scene.name else ""
+            self._say(
+                (level, ": ".join(filter(None, (file, place))), text)
+                for level, place, text in self._scene.messages
+            )
         return self._scene
 
     def render(
