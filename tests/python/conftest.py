@@ -1,8 +1,9 @@
-"""What every test uses: the test data, the command as people call it, and small scenes."""
+"""What every test uses: the test data, the command as people call it, small scenes, the real browser."""
 
 from __future__ import annotations
 
 import os
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -76,3 +77,20 @@ def floor() -> am.Scene:
     scene.add_mesh(SQUARE, FACES, material=am.materials.Diffuse(0.5), name="floor")
     scene.add_light(am.lights.Rectangle((-0.5, 2, -0.5), (1, 0, 0), (0, 0, 1), radiance=3.0), name="lamp")
     return scene
+
+
+@pytest.fixture(scope="session")
+def browser():
+    """Chromium. Without it: skipped, but a failure under CI=true."""
+    path = shutil.which(os.environ.get("ANTUMBRA_CHROMIUM") or "chromium")
+    if path is None:
+        if os.environ.get("CI") == "true":
+            pytest.fail("no Chromium: install it, or name it in ANTUMBRA_CHROMIUM")
+        pytest.skip("no Chromium (ANTUMBRA_CHROMIUM)")
+    from playwright.sync_api import sync_playwright
+
+    with sync_playwright() as play:
+        # Containers have no user namespaces; the page is our own.
+        opened = play.chromium.launch(executable_path=path, args=["--no-sandbox"])
+        yield opened
+        opened.close()

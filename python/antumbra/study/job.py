@@ -201,7 +201,9 @@ def _varied(plan: Plan) -> set[tuple[str, float]]:
 
 def _about_reference(rows: list[Row]) -> list[tuple[str, str, str]]:
     """A warning where the test of bias is blunt."""
-    blunt = max((r.bias.difference.half / abs(r.mean) for r in rows if r.bias and r.mean), default=0.0)
+    blunt = max(
+        (r.bias.difference.half / abs(r.true_mean) for r in rows if r.bias and r.true_mean), default=0.0
+    )
     if blunt <= _BLUNT:
         return []
     what = f"a bias below {100 * blunt:.2g} % of the mean is hidden by noise here: more seeds or reference rays help"

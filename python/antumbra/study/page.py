@@ -61,11 +61,13 @@ def _facts(study: Study) -> dict[str, Any]:
         "study": study,
         "plot_css": plot.CSS,
         "over_axis": _plot(study, "axis") if study.axis else "",
-        "over_seconds": _plot(study, "seconds"),
+        "over_seconds": ""
+        if study.axis == "budget" and study.budget == "seconds"
+        else _plot(study, "seconds"),
         "slopes": [(name, slope, _against_independent(slope)) for name, slope in _slopes(study)],
         "rows": [_line(study, row) for row in study.rows],
         "best": study.name_of(best) if best else "",
-        "biased": [_biased(study, row) for row in study.flagged()],
+        "biased": _biased(study),
         "axis": axis_title(study),
         "varied": [(_dashed(name), [_short(v) for v in values]) for name, values in study.varied.items()],
         "fixed": [(_dashed(name), value) for name, value in study.fixed.items()],
@@ -131,7 +133,7 @@ def _line(study: Study, row: Row) -> dict[str, Any]:
         "traced": f"{row.rays:,.1f}",
         "seconds": str(row.seconds),
         "error": "below the reference's noise" if error is None or error.value <= 0 else str(error),
-        "share": f"{100 * error.value / row.mean:.2g} %" if error and row.mean else "",
+        "share": f"{_percent(100 * error.value / row.true_mean)} %" if error and row.true_mean else "",
         "gain": "1" if gain is None else _times(gain),
         "bias": _bias(row),
         "flagged": row.bias is not None and row.bias.flagged,
@@ -148,22 +150,40 @@ def _times(gain: Interval) -> str:
 
 
 def _bias(row: Row) -> str:
-    if row.bias is None or not row.mean:
+    if row.bias is None or not row.true_mean:
         return "–"
-    found = row.bias.difference
-    return f"{plus_minus(100 * found.value / row.mean, 100 * found.half / abs(row.mean))} %"
+    found, whole = row.bias.difference, abs(row.true_mean)
+    return f"{plus_minus(100 * found.value / whole, 100 * found.half / whole)} %"
 
 
-def _biased(study: Study, row: Row) -> str:
-    """What is said of a flagged row."""
+def _percent(share: float) -> str:
+    """Two digits, and all before the point."""
+    return f"{share:,.0f}" if share >= 10 else f"{share:.2g}"
+
+
+def _biased(study: Study) -> list[str]:
+    """What is said of each curve that has flagged rows; its numbers are those of the last of them."""
+    found = []
+    for name, rows in study.curves().items():
+        flagged = [r for r in rows if r.bias is not None and r.bias.flagged]
+        if not flagged:
+            continue
+        last = flagged[-1]
+        places = [_short(f"{r.n:.12g}") for r in flagged if r.n is not None]
+        at = f" (at {', '.join(places)})" if places else ""
+        found.append(f"{name}{at}: its mean is off by {_bias(last)} of the reference's{_where(last)}")
+    return found
+
+
+def _where(row: Row) -> str:
+    """Where it is clearest, and how likely chance is."""
     assert row.bias is not None
-    where = ""
+    chance = "below 10⁻⁶" if row.bias.p < 1e-6 else f"{row.bias.p:.1g}"
+    place = ""
     if row.bias.tile is not None:
         x, y, width, height = row.bias.tile
-        where = f", clearest at pixels {x}…{x + width - 1}, {y}…{y + height - 1}"
-    at = f" at {_short(f'{row.n:.12g}')}" if row.n is not None else ""
-    chance = "less than 10⁻⁶" if row.bias.p < 1e-6 else f"{row.bias.p:.1g}"
-    return f"{study.name_of(row)}{at}: its mean is off by {_bias(row)}{where}; by chance: {chance}"
+        place = f"; it is clearest at pixels {x}…{x + width - 1}, {y}…{y + height - 1}"
+    return f"{place}; probability of that by chance {chance}"
 
 
 def _dashed(name: str) -> str:

@@ -44,7 +44,7 @@ CSS = """\
 
 # Of the drawing, in units of its viewBox.
 _LEFT, _RIGHT, _TOP, _HEIGHT, _BELOW = 64.0, 470.0, 48.0, 326.0, 66.0
-_NAME_GAP, _NAMES, _LETTER = 14.0, 136.0, 8.0
+_NAME_GAP, _NAMES, _LETTER, _LARGE_LETTER = 14.0, 136.0, 8.0, 12.0
 # Names with a second label under them, and names alone, stand at least so far apart; ticks of an axis likewise.
 _APART, _APART_ALONE, _TICKS_APART = 38.0, 20.0, 30.0
 _SHAPES = ("o", "s", "^", "D", "v", "P", "X", "p")
@@ -130,8 +130,9 @@ class _Page:
     def __init__(self, curves: Sequence[Curve], logarithmic: tuple[bool, bool]) -> None:
         self.curves, self.apart = curves, _APART if any(c.note for c in curves) else _APART_ALONE
         tall = max(_HEIGHT, self.apart * len(curves))
-        longest = max((max(len(c.name), len(c.note)) for c in curves), default=0)
-        self.width = round(_RIGHT + _NAME_GAP + max(_NAMES, _LETTER * longest))
+        # Names are seen on a phone too, in letters that are larger in the drawing; notes are not.
+        longest = max((max(_LARGE_LETTER * len(c.name), _LETTER * len(c.note)) for c in curves), default=0)
+        self.width = round(_RIGHT + _NAME_GAP + max(_NAMES, longest))
         self.height = round(_TOP + tall + _BELOW)
         self.figure, self.axes = self._new(tall)
         for axis, is_log in zip("xy", logarithmic, strict=True):
@@ -284,10 +285,10 @@ def _span(values: Sequence[float], is_log: bool, margin: float) -> tuple[float, 
 
 
 def _decades(low: float, high: float, is_log: bool) -> list[float]:
-    """1 and 3 of each decade, or 1 alone where there are many; on a linear axis 1, 2 or 5 times a power of ten."""
+    """1 and 3 of each decade, more of few and fewer of many; on a linear axis 1, 2 or 5 times a power of ten."""
     if is_log:
         first, last = math.floor(math.log10(low)), math.ceil(math.log10(high))
-        parts = (1, 3) if last - first <= 5 else (1,)
+        parts = (1, 2, 3, 5) if high < 15 * low else (1, 3) if high < 1e5 * low else (1,)
         return [float(f"{part}e{power}") for power in range(first, last + 1) for part in parts]
     power = 10.0 ** math.floor(math.log10((high - low) / 3))
     step = power * max(s for s in (1, 2, 5) if s * power <= (high - low) / 3)

@@ -76,6 +76,11 @@ class Row:
         return statistics.root(self.mse) if self.mse else None
 
     @property
+    def true_mean(self) -> float:
+        """Mean of the reference over the picture, or of the row itself without one."""
+        return self.mean - self.bias.difference.value if self.bias else self.mean
+
+    @property
     def noisy(self) -> bool:
         """Whether its seeds differ at all; a regular grid has the same error each time."""
         return self.variance.value > 0
