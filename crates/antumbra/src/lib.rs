@@ -26,6 +26,7 @@ pub mod settings;
 pub mod schedule;
 // Floor 8
 pub mod query;
+// Floor 9
 pub mod render;
 
 pub use antumbra_math as math;

@@ -1,4 +1,4 @@
-//! Scene and settings → picture. Floor 8.
+//! Scene and settings → picture. Floor 9.
 
 mod explain;
 mod maps;
