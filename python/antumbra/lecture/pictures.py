@@ -54,7 +54,7 @@ def ramp_png(values: ArrayLike, ramp: str, low: float = 0.0, high: float = 1.0, 
     """A map of numbers (H, W): `low` to `high` along a ramp of `RAMPS`; NaN is low."""
     share = np.nan_to_num((np.asarray(values, np.float64) - low) / (high - low))
     steps = np.round(np.clip(share, 0.0, 1.0) * (tones - 1)).astype(np.uint8)
-    return classes_png(steps, _between(RAMPS[ramp], tones))
+    return classes_png(steps, ramp_colours(RAMPS[ramp], tones))
 
 
 def classes_png(classes: ArrayLike, colours: tuple[str, ...] = REGIONS) -> bytes:
@@ -79,7 +79,8 @@ def smaller(png: bytes, factor: float) -> bytes:
     return _png(shrunk.quantize(min(colours, 64), dither=Image.Dither.NONE))
 
 
-def _between(stops: tuple[str, ...], tones: int) -> tuple[str, ...]:
+def ramp_colours(stops: tuple[str, ...], tones: int) -> tuple[str, ...]:
+    """`tones` colours along a ramp."""
     at = np.linspace(0, len(stops) - 1, tones)
     channels = [
         np.interp(at, range(len(stops)), [int(stop[i : i + 2], 16) for stop in stops]) for i in (1, 3, 5)
