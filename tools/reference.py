@@ -12,6 +12,7 @@ from pathlib import Path
 from types import ModuleType
 
 from antumbra import _core, lights, materials, shapes
+from antumbra._words import exact
 from antumbra.cli._run import _in_order, _overview
 
 FOLDER = Path(__file__).resolve().parent.parent / "docs" / "reference"
@@ -38,7 +39,8 @@ def scenes() -> str:
         if parameters:
             parts.append("\n| parameter | default | from | to | |\n|---|---|---|---|---|\n")
             parts += [
-                f"| `{n}` | {d:g} | {low:g} | {high:g} | {text} |\n" for n, d, low, high, text in parameters
+                f"| `{n}` | {exact(d)} | {exact(low)} | {exact(high)} | {text} |\n"
+                for n, d, low, high, text in parameters
             ]
     return "".join(parts)
 

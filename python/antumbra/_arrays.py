@@ -7,7 +7,8 @@ from typing import Any, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from antumbra.hit import Receivers
+from antumbra import _core
+from antumbra.hit import Hit, Receivers
 
 Array = NDArray[np.float32] | NDArray[np.float64]
 
@@ -63,16 +64,25 @@ def indices(name: str, value: Any, columns: int, below: int, of: str) -> NDArray
     return np.ascontiguousarray(array, np.uint32)
 
 
-def places(points: Any, normals: Any) -> tuple[Array | Receivers, Array | None]:
-    """What a query starts from: receivers of a hit, or points with one normal each."""
-    if isinstance(points, Receivers):
+def starts(origins: Any) -> tuple[Array | _core.Receivers, int]:
+    """Where rays start, and how many: a hit, its receivers, or an (N, 3) array."""
+    if isinstance(origins, (Hit, Receivers)):
+        receivers = origins.receivers if isinstance(origins, Hit) else origins
+        return receivers._core, len(receivers)
+    array = rows("origins", origins)
+    return array, len(array)
+
+
+def places(points: Any, normals: Any) -> tuple[Array | _core.Receivers, Array | None, int]:
+    """What a query starts from, and how many: a hit, its receivers, or points with one normal each."""
+    if isinstance(points, (Hit, Receivers)):
         if normals is not None:
-            raise ValueError("receivers have their own normals: leave normals out")
-        return points, None
+            raise ValueError("the receivers of a hit have their own normals: leave normals out")
+        return starts(points)[0], None, len(points)
     if normals is None:
-        raise ValueError("normals are missing: one per point is needed (or receivers of a hit)")
+        raise ValueError("normals are missing: one per point is needed (or a hit, which has its own)")
     points = rows("points", points)
-    return points, matching("normals", normals, "points", len(points))
+    return points, matching("normals", normals, "points", len(points)), len(points)
 
 
 def per_row(name: str, value: Any, count: int) -> NDArray[np.float64]:

@@ -18,6 +18,7 @@ __all__ = [
     "check_settings",
     "check_writable",
     "nearest",
+    "read_part",
     "read_picture",
     "settings",
     "write_picture",
@@ -34,6 +35,7 @@ def check_settings(words: _Words) -> None: ...
 def nearest(text: str, known: Sequence[str]) -> str | None: ...
 def builtins() -> list[tuple[str, str, list[tuple[str, float, float, float, str]]]]: ...
 def check_writable(path: str) -> None: ...
+def read_part(path: str) -> tuple[_F32, list[int]]: ...
 def read_picture(path: str) -> _F32: ...
 def write_picture(path: str, pixels: _F32) -> None: ...
 
@@ -119,7 +121,7 @@ _Parts = tuple[
     _F32 | None,
     list[tuple[str, _F32]],
     list[tuple[str, str]],
-    tuple[int, int, int, int, int],
+    tuple[int, int, int, int, int, list[int]],
 ]
 
 @final
@@ -155,5 +157,5 @@ class Picture:
         standard_error: _F32 | None,
         aovs: Sequence[tuple[str, _F32]],
         metadata: Sequence[tuple[str, str]],
-        counts: tuple[int, int, int, int, int],
+        counts: tuple[int, int, int, int, int, list[int]],
     ) -> Picture: ...

@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from antumbra import settings
-from antumbra._arrays import matching, per_row, places, rows
-from antumbra.hit import Receivers
+from antumbra._arrays import matching, per_row, places, starts
+from antumbra.hit import Hit, Receivers
 
 if TYPE_CHECKING:
     from antumbra import _core
@@ -48,15 +48,9 @@ class Anatomy:
 
     _core: _core.Scene
 
-    def _start(self, origins: Any) -> tuple[Any, int]:
-        if isinstance(origins, Receivers):
-            return origins._core, len(origins)
-        array = rows("origins", origins)
-        return array, len(array)
-
     def regions(
         self,
-        points: ArrayLike | Receivers,
+        points: ArrayLike | Hit | Receivers,
         normals: ArrayLike | None = None,
         *,
         light: str | int = 0,
@@ -75,14 +69,13 @@ class Anatomy:
         >>> am.Region(scene.regions([[6371.001, 0, 0]], [[1, 0, 0]])[0]).name
         'UMBRA'
         """
-        start, facing = places(points, normals)
-        inside = start._core if isinstance(start, Receivers) else start
+        start, facing, _ = places(points, normals)
         words = settings.words({"region_points": n, **options})
-        return self._core.regions(inside, facing, str(light), list(words.items()))
+        return self._core.regions(start, facing, str(light), list(words.items()))
 
     def visits(
         self,
-        origins: ArrayLike | Receivers,
+        origins: ArrayLike | Hit | Receivers,
         targets: ArrayLike | None = None,
         *,
         directions: ArrayLike | None = None,
@@ -135,7 +128,7 @@ class Anatomy:
         """Starts, ends and reach of segments to targets or along directions."""
         if (targets is None) == (directions is None):
             raise ValueError("one of targets and directions is needed")
-        start, count = self._start(origins)
+        start, count = starts(origins)
         if targets is not None:
             return start, matching("targets", targets, "origins", count), None
         along = matching("directions", directions, "origins", count)

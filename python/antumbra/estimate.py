@@ -12,8 +12,14 @@ from numpy.typing import NDArray
 class Estimate(NDArrayOperatorsMixin):
     """Values with their standard error. Acts as the array of its values; arithmetic gives plain arrays.
 
-    `values`: float array; `standard_error`: the same shape and unit, from independent replicates; `quantity`: what it
-    is, in words; `rays` per receiver; `seconds` that it took.
+    `values`: float array; `standard_error`: the same shape and unit; `quantity`: what it is, in words; `rays` per
+    receiver; `seconds` that it took.
+
+    The standard error is the scatter of R independent replicates of the whole estimate, √(Σ(m_r − m)² / (R(R − 1))):
+    R = 4 below 256 rays, 16 from there (fewer rays than 4: as many as rays). An interval is value ± t · standard error
+    with Student's t of R − 1 degrees of freedom: for 95 %, t = 3.18 with R = 4 and 2.13 with R = 16. It is NaN where
+    R < 2: with one ray, or a fixed grid (`sampler="regular"` without `rotate=True`). Where few rays all agree by
+    chance (a penumbra, a small light) it is too small: ask for 256 or more.
 
     >>> import numpy as np, antumbra as am
     >>> scene = am.builtin("corner")
@@ -96,8 +102,9 @@ class Estimate(NDArrayOperatorsMixin):
         """What it is, how large, how sure, how long it took."""
         facts = [f"mean {_short(self.values.mean())}" if self.size else "empty"]
         worst = np.max(self.standard_error, initial=0.0)
-        if np.isfinite(worst) and self.size:
-            facts.append(f"standard error ≤ {_short(worst)}")
+        if self.size:
+            known = np.isfinite(worst)
+            facts.append(f"standard error ≤ {_short(worst)}" if known else "standard error not known")
         if self.rays:
             facts.append(f"{self.rays:,} rays each")
         if self.seconds:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Any
+from functools import cached_property
+from typing import Any, NoReturn
 
 import numpy as np
 from numpy.typing import NDArray
@@ -42,6 +43,10 @@ class Receivers:
         """Some of them, by a mask, a slice or indices."""
         return Receivers(self._core.take(np.atleast_1d(np.arange(len(self))[key]).astype(np.uint64)))
 
+    def __reduce__(self) -> NoReturn:
+        """Receivers belong to their scene, which does not pickle."""
+        raise TypeError("receivers do not pickle: they belong to their scene. Keep .positions and .normals")
+
     def __repr__(self) -> str:
         """How many there are."""
         return f"<Receivers ({len(self):,})>"
@@ -54,22 +59,39 @@ class Hit:
     uint32, the number of the object in the scene, both 2³²−1 for a miss; `uv` (N, 2) float32: barycentric weights of
     the second and third corner; `position` (N, 3) float64 and geometric `normal` (N, 3) float64 on the ray's side,
     NaN for a miss; `receivers`: the same points for further queries.
+
+    A hit goes into every query instead of points. It pickles, but its receivers stay with the scene.
     """
 
     def __init__(self, core: _core.Hits) -> None:
         """Wraps what the core returned."""
         self.t, self.primitive, self.mesh, self.uv = core.t(), core.primitive(), core.mesh(), core.uv()
-        self.receivers = Receivers(core.receivers())
+        self._receivers: Receivers | None = Receivers(core.receivers())
 
     @property
+    def receivers(self) -> Receivers:
+        """The points that were hit, with a safe start for further segments."""
+        if self._receivers is None:
+            raise ValueError(
+                "this hit was pickled, and its receivers stayed with the scene: ask closest_hit again, or give "
+                ".position and .normal"
+            )
+        return self._receivers
+
+    @cached_property
     def position(self) -> NDArray[np.float64]:
         """Where it was hit, (N, 3) float64."""
         return self.receivers.positions
 
-    @property
+    @cached_property
     def normal(self) -> NDArray[np.float64]:
         """Geometric unit normal on the ray's side, (N, 3) float64."""
         return self.receivers.normals
+
+    def __getstate__(self) -> dict[str, Any]:
+        """The arrays."""
+        names = ("t", "primitive", "mesh", "uv", "position", "normal")
+        return {name: getattr(self, name) for name in names} | {"_receivers": None}
 
     def __len__(self) -> int:
         """Number of rays."""

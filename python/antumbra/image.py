@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from functools import cached_property
 from os import PathLike, fspath
 from typing import Any
@@ -10,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from antumbra import _core
+from antumbra._words import significant
 from antumbra.messages import Message
 
 
@@ -19,9 +21,17 @@ class Image:
     It pickles, shows itself in a notebook, and stands for `pixels` where NumPy wants an array.
     """
 
-    def __init__(self, picture: _core.Picture, *, name: str = "", seconds: float = 0.0) -> None:
-        """Wraps what the core returned."""
+    def __init__(
+        self,
+        picture: _core.Picture,
+        *,
+        name: str = "",
+        seconds: float = 0.0,
+        messages: Iterable[Message] = (),
+    ) -> None:
+        """Wraps what the core returned, with what else there is to say."""
         self._picture, self.name, self.seconds = picture, name, seconds
+        self._messages = tuple(messages)
 
     @property
     def width(self) -> int:
@@ -40,7 +50,12 @@ class Image:
 
     @cached_property
     def standard_error(self) -> NDArray[np.float32] | None:
-        """Standard error of each value of `pixels`, (H, W, 3) float32; None where there are too few viewing rays."""
+        """Standard error of each value of `pixels`, (H, W, 3) float32; None below two independent replicates.
+
+        There are 4 replicates below 256 viewing rays and 16 from there: an interval is `pixels` ± t · standard error,
+        with Student's t of 3 or 15 degrees of freedom. One viewing ray, a fixed grid (`sampler="regular"` without
+        `rotate=True`) and a render that was stopped early have one replicate, and no known error.
+        """
         return self._picture.standard_error()
 
     @cached_property
@@ -56,7 +71,7 @@ class Image:
     @property
     def messages(self) -> list[Message]:
         """Notes and warnings of this render; the scene has its own."""
-        return [Message(*said) for said in self._picture.messages]
+        return [*self._messages, *(Message(*said) for said in self._picture.messages)]
 
     @property
     def passes_done(self) -> int:
@@ -85,8 +100,17 @@ class Image:
 
     @property
     def relative_error(self) -> float | None:
-        """Mean standard error of a pixel as a part of the mean pixel; None where it is unknown."""
+        """Mean standard error of a pixel as a part of the mean pixel; None where it is unknown or all is black."""
         return self._picture.relative_error()
+
+    @property
+    def error_words(self) -> str:
+        """How sure the picture is, in words."""
+        if self.relative_error is not None:
+            return f"standard error {significant(100 * self.relative_error, 2)} % of the mean"
+        if self.standard_error is None:
+            return "standard error not known (fewer than 2 replicates)"
+        return "black"
 
     def save(self, path: str | PathLike[str]) -> None:
         """Writes an EXR (with all planes and metadata) or a PNG (the tone curve of the settings), whole or not at all.
@@ -101,9 +125,7 @@ class Image:
 
     def summary(self) -> str:
         """Size, error and time in one line."""
-        parts = [f"{self.width} × {self.height}"]
-        if self.relative_error is not None:
-            parts.append(f"standard error {100 * self.relative_error:.2g} % of the mean")
+        parts = [f"{self.width} × {self.height}", self.error_words]
         if self.passes_done < self.passes:
             parts.append(f"{self.passes_done} of {self.passes} passes")
         if self.seconds:
@@ -125,15 +147,15 @@ class Image:
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Pickles the arrays, not the core's object."""
-        return _rebuilt, (self._picture.parts(), self.name, self.seconds)
+        return _rebuilt, (self._picture.parts(), self.name, self.seconds, self.messages)
 
 
-def _rebuilt(parts: tuple[Any, ...], name: str, seconds: float) -> Image:
-    return Image(_core.Picture.from_parts(*parts), name=name, seconds=seconds)
+def _rebuilt(parts: tuple[Any, ...], name: str, seconds: float, messages: list[Message]) -> Image:
+    return Image(_core.Picture.from_parts(*parts), name=name, seconds=seconds, messages=messages)
 
 
 def load_image(path: str | PathLike[str]) -> NDArray[np.float32]:
-    """Reads an EXR, HDR or PNG picture as linear (H, W, 3) float32.
+    """Reads an EXR, HDR or PNG picture as linear (H, W, 3) float32; of an EXR, its data window.
 
     Raises SceneError for a file that is not such a picture.
     """

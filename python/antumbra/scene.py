@@ -5,15 +5,17 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from os import PathLike, fspath
-from typing import Any, NamedTuple, cast
+from typing import Any, NamedTuple, NoReturn, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from antumbra import _core, settings
-from antumbra._arrays import indices, matching, numbers, per_row, places, rows
+from antumbra._arrays import indices, matching, per_row, places, rows, starts
+from antumbra._parts import lat_long, matrix, mesh_of, one_of
 from antumbra._values import Color, Vector, color, vector
 from antumbra.anatomy import Anatomy
+from antumbra.effects import idle
 from antumbra.errors import RenderStopped
 from antumbra.estimate import Estimate
 from antumbra.hit import Hit, Receivers
@@ -115,37 +117,38 @@ class Scene(Anatomy):
         Raises ValueError or TypeError for another shape or kind of number, or an index out of range.
         """
         if faces is None:
-            vertices, faces = _mesh_of(vertices)
+            vertices, faces = mesh_of(vertices)
         vertices = rows("vertices", vertices)
         corners = indices("faces", faces, 3, len(vertices), "vertex")
         if normals is not None:
             normals = matching("normals", normals, "vertices", len(vertices))
-        matrix = None if transform is None else _matrix(transform)
+        place = None if transform is None else matrix(transform)
         look = self._material(material, emission)
-        self._core.add_mesh(name, vertices, corners, look, matrix, normals)
+        self._core.add_mesh(name, vertices, corners, look, place, normals)
 
     def add_shape(
         self, shape: Shape, *, material: Material | None = None, emission: Color | None = None, name: str = ""
     ) -> None:
         """Adds a sphere, disk, cylinder or rectangle of `antumbra.shapes`, in world space."""
-        self._core.add_shape(name, type(shape).__name__, shape.fields(), self._material(material, emission))
+        kind = one_of("shape", shape, Shape)
+        self._core.add_shape(name, kind, shape.fields(), self._material(material, emission))
 
     def add_light(self, light: Light, *, name: str = "") -> None:
         """Adds a light of `antumbra.lights`; `name` is what `light=` and `visible_fraction` call it."""
+        kind = one_of("light", light, Light)
         if isinstance(light, Environment) and isinstance(light.radiance, (str, PathLike)):
             self._core.add_environment_file(name, fspath(light.radiance), light.scale)
         elif isinstance(light, Environment) and np.ndim(cast("ArrayLike", light.radiance)) == 3:
-            picture = _lat_long(light.radiance)
+            picture = lat_long(light.radiance)
             self._core.add_environment(name, picture, light.scale)
         else:
-            self._core.add_light(name, type(light).__name__, light.fields())
+            self._core.add_light(name, kind, light.fields())
 
     def _material(self, material: Material | None, emission: Color | None) -> int:
         look = Diffuse() if material is None else material
-        if not hasattr(look, "fields"):
-            raise TypeError(f"material is a {type(look).__name__}: one of antumbra.materials is needed")
+        kind = one_of("material", look, Material)
         radiance = None if emission is None else color("emission", emission)
-        return self._core.add_material(type(look).__name__, look.fields(), radiance)
+        return self._core.add_material(kind, look.fields(), radiance)
 
     # ---- pictures ----
 
@@ -165,8 +168,11 @@ class Scene(Anatomy):
         """
         began = time.perf_counter()
         watch = None if progress is None else lambda *state: progress(Progress(*state))
-        picture, interrupted = self._core.render(list(settings.words(options).items()), watch)
-        image = Image(picture, name=self.name, seconds=time.perf_counter() - began) if picture else None
+        words = settings.words(options)
+        picture, interrupted = self._core.render(list(words.items()), watch)
+        seconds = time.perf_counter() - began
+        said = [Message("note", "", text) for text in idle(words)]
+        image = Image(picture, name=self.name, seconds=seconds, messages=said) if picture else None
         if interrupted or image is None:
             raise RenderStopped(image)
         return image
@@ -185,7 +191,7 @@ class Scene(Anatomy):
 
     def occluded(
         self,
-        origins: ArrayLike | Receivers,
+        origins: ArrayLike | Hit | Receivers,
         targets: ArrayLike | None = None,
         *,
         directions: ArrayLike | None = None,
@@ -202,20 +208,20 @@ class Scene(Anatomy):
         return self._core.occluded(*self._segments(origins, targets, directions, max_distance))
 
     def closest_hit(
-        self, origins: ArrayLike | Receivers, directions: ArrayLike, max_distance: ArrayLike = np.inf
+        self, origins: ArrayLike | Hit | Receivers, directions: ArrayLike, max_distance: ArrayLike = np.inf
     ) -> Hit:
         """What each ray meets first.
 
         `origins` (N, 3) or receivers, `directions` (N, 3) of any length, `max_distance` in multiples of it: one number
         or (N,). `Hit.t` is inf for a miss; hits at the same distance: the first in the order of building.
         """
-        start, count = self._start(origins)
+        start, count = starts(origins)
         along = matching("directions", directions, "origins", count)
         return Hit(self._core.closest_hit(start, along, per_row("max_distance", max_distance, count)))
 
     def irradiance(
         self,
-        points: ArrayLike | Receivers,
+        points: ArrayLike | Hit | Receivers,
         normals: ArrayLike | None = None,
         *,
         shadow_rays: int = 64,
@@ -234,7 +240,7 @@ class Scene(Anatomy):
 
     def ambient_occlusion(
         self,
-        points: ArrayLike | Receivers,
+        points: ArrayLike | Hit | Receivers,
         normals: ArrayLike | None = None,
         *,
         rays: int = 64,
@@ -251,7 +257,7 @@ class Scene(Anatomy):
 
     def visible_fraction(
         self,
-        points: ArrayLike | Receivers,
+        points: ArrayLike | Hit | Receivers,
         normals: ArrayLike | None = None,
         *,
         light: str | int = 0,
@@ -262,26 +268,24 @@ class Scene(Anatomy):
 
         What lies below a point's horizon is not seen. `light`: its name, or its number in the order of building.
         """
-        start, facing = places(points, normals)
-        inside = start._core if isinstance(start, Receivers) else start
+        start, facing, _ = places(points, normals)
         words = settings.words({"shadow_rays": rays, **options})
         began = time.perf_counter()
-        values, errors = self._core.visible_fraction(inside, facing, str(light), list(words.items()))
+        values, errors = self._core.visible_fraction(start, facing, str(light), list(words.items()))
         return Estimate(values, errors, "visible fraction", rays, time.perf_counter() - began)
 
     def _estimate(self, what: str, points: Any, normals: Any, options: dict[str, Any]) -> Estimate:
-        start, facing = places(points, normals)
+        start, facing, _ = places(points, normals)
         words = settings.words(options)
         began = time.perf_counter()
-        inside = start._core if isinstance(start, Receivers) else start
-        values, errors = getattr(self._core, what)(inside, facing, list(words.items()))
+        values, errors = getattr(self._core, what)(start, facing, list(words.items()))
         seconds = time.perf_counter() - began
         return Estimate(values, errors, what.replace("_", " "), int(options["shadow_rays"]), seconds)
 
     # ---- the pieces of an estimator ----
 
     def sample_light(
-        self, points: ArrayLike | Receivers, normals: ArrayLike | None, u: ArrayLike, **options: Any
+        self, points: ArrayLike | Hit | Receivers, normals: ArrayLike | None, u: ArrayLike, **options: Any
     ) -> LightSamples:
         """Draws one light and one point of it for each receiver, from three numbers `u` (N, 3) in [0, 1) each.
 
@@ -291,11 +295,10 @@ class Scene(Anatomy):
         reach, radiance is 0 and pdf is 1; lights without size have p(light) as pdf and their irradiance as radiance.
         Options: `lights` (how one is chosen: "uniform", "power", "contribution") and `light_points`.
         """
-        start, facing = places(points, normals)
-        inside = start._core if isinstance(start, Receivers) else start
-        cube = matching("u", u, "points", len(start))
+        start, facing, count = places(points, normals)
+        cube = matching("u", u, "points", count)
         words = list(settings.words(options).items())
-        return LightSamples(*self._core.sample_light(inside, facing, cube, words))
+        return LightSamples(*self._core.sample_light(start, facing, cube, words))
 
     def brdf(self, hit: Hit | Receivers, wo: ArrayLike, wi: ArrayLike) -> NDArray[np.float32]:
         """f_r(ω_o, ω_i) [1/sr] at each receiver, (N, 3) float32, without the cosine.
@@ -331,6 +334,19 @@ class Scene(Anatomy):
         """
         return self._core.triangles()
 
+    def __reduce__(self) -> NoReturn:
+        """Scenes do not pickle: they would have to bring their files along."""
+        raise TypeError(
+            f"a Scene does not pickle: make {self.name!r} again where it is needed, by load(), builtin() or the same "
+            "add_ calls; triangles() gives its geometry as arrays"
+        )
+
+    def _repr_html_(self) -> str:
+        """What is in it, for a notebook."""
+        from antumbra.notebook import scene_html
+
+        return scene_html(repr(self).strip("<>"), self.info(), self.messages)
+
     def __repr__(self) -> str:
         """`<Scene room.glb: 143,163 triangles, 5 lights, 1 camera>`."""
         found = self._core.counts()
@@ -347,29 +363,3 @@ class LightSamples(NamedTuple):
     radiance: NDArray[np.float32]
     pdf: NDArray[np.float32]
     light: NDArray[np.uint32]
-
-
-def _mesh_of(mesh: Any) -> tuple[Any, Any]:
-    """Vertices and faces of a trimesh or Open3D mesh."""
-    for faces in ("faces", "triangles"):
-        if hasattr(mesh, "vertices") and hasattr(mesh, faces):
-            return np.asarray(mesh.vertices), np.asarray(getattr(mesh, faces))
-    raise TypeError(
-        "faces are missing: give (F, 3) whole numbers, or a mesh with .vertices and .faces or .triangles"
-    )
-
-
-def _matrix(transform: ArrayLike) -> NDArray[np.float64]:
-    matrix = np.ascontiguousarray(numbers("transform", transform), np.float64)
-    if matrix.shape != (4, 4):
-        raise ValueError(f"transform has shape {matrix.shape}: (4, 4) is needed")
-    if not np.array_equal(matrix[3], [0, 0, 0, 1]):
-        raise ValueError(f"transform has the last row {matrix[3]}: (0, 0, 0, 1) is needed")
-    return matrix
-
-
-def _lat_long(picture: Any) -> NDArray[np.float32]:
-    array = np.ascontiguousarray(numbers("radiance", picture), np.float32)
-    if array.shape[2] != 3 or 0 in array.shape:
-        raise ValueError(f"radiance has shape {array.shape}: (H, W, 3) is needed")
-    return array

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
+import os
 import re
 from collections.abc import Mapping
 from functools import cache
 from typing import Any, NamedTuple
 
 from antumbra import _core
+from antumbra.errors import OptionError
 
 
 class Setting(NamedTuple):
@@ -50,21 +52,36 @@ def words(keywords: Mapping[str, Any]) -> dict[str, str]:
 
 
 def _word(name: str, value: Any) -> str:
+    if getattr(value, "ndim", None) == 0 and hasattr(value, "item"):
+        value = value.item()
     if isinstance(value, bool):
         return "on" if value else "off"
-    if isinstance(value, str):
-        return value
-    if name in _ANGLES and not _is_sequence(value):
-        return repr(math.degrees(float(value)))
+    if isinstance(value, (str, os.PathLike)):
+        return os.fspath(value)
+    if name in _ANGLES:
+        return _degrees(name, value)
     if isinstance(value, int):
         return str(value)
     if _is_sequence(value):
-        return ("\n" if table().get(name, _NONE).repeats else ",").join(_word("", v) for v in value)
+        return ("\n" if table().get(name, _NONE).repeats else ",").join(_word(name, v) for v in value)
     try:
         return repr(float(value)) if not hasattr(value, "__index__") else str(value.__index__())
     except (TypeError, ValueError):
         kind = type(value).__name__
         raise TypeError(f"{name} is a {kind}: a number, a word or a sequence of them is needed") from None
+
+
+def _degrees(name: str, radians: Any) -> str:
+    """An angle in the unit of the table, as the table's own limits have it (0 to 179.9°)."""
+    try:
+        degrees = math.degrees(float(radians))
+    except (TypeError, ValueError):
+        raise TypeError(f"{name} is a {type(radians).__name__}: an angle in radians is needed") from None
+    if not 1e-9 <= degrees <= 179.9:
+        raise OptionError(
+            f"{name} = {radians}: an angle above 0 and below π is needed, in radians (math.radians(40))"
+        )
+    return repr(degrees)
 
 
 _NONE = Setting("", "", "", [], "", "", False)

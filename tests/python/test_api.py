@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 import antumbra as am
+from antumbra import _core
 from conftest import FACES, SQUARE
 
 
@@ -143,6 +144,16 @@ def test_a_written_exr_is_read_by_the_official_library(floor, tmp_path):
         assert file.header()["antumbra.seed"] == "0"
 
 
+def test_a_cropped_exr_says_where_it_lies_to_the_official_library(floor, tmp_path):
+    open_exr = pytest.importorskip("OpenEXR")
+    floor.render(size=(20, 10), crop=(3, 2, 8, 5), viewing_rays=1, eye=(0, 1, 2)).save(tmp_path / "part.exr")
+    with open_exr.File(str(tmp_path / "part.exr"), separate_channels=True) as file:
+        windows = [
+            [list(corner) for corner in file.header()[name]] for name in ("dataWindow", "displayWindow")
+        ]
+    assert windows == [[[3, 2], [10, 6]], [[0, 0], [19, 9]]]
+
+
 def test_pictures_and_estimates_pickle(floor):
     image = floor.render(size=(8, 8), viewing_rays=4, aov="depth")
     again = pickle.loads(pickle.dumps(image))
@@ -152,6 +163,74 @@ def test_pictures_and_estimates_pickle(floor):
     assert again.png() == image.png()
     estimate = floor.irradiance([[0.0, 0, 0]], [[0.0, 1, 0]])
     assert repr(pickle.loads(pickle.dumps(estimate))) == repr(estimate)
+
+
+def test_hits_pickle_and_their_receivers_stay_with_the_scene(floor):
+    hit = floor.closest_hit([[0.25, 1, 0.5], [5, 1, 5]], [[0.0, -2, 0], [0, -1, 0]])
+    again = pickle.loads(pickle.dumps(hit))
+    for name in ("t", "primitive", "mesh", "uv", "position", "normal"):
+        np.testing.assert_array_equal(getattr(again, name), getattr(hit, name))
+    assert repr(again) == repr(hit)
+    with pytest.raises(ValueError, match="its receivers stayed with the scene"):
+        _ = again.receivers
+    with pytest.raises(TypeError, match="receivers do not pickle"):
+        pickle.dumps(hit.receivers)
+    with pytest.raises(TypeError, match="a Scene does not pickle: make 'floor' again"):
+        pickle.dumps(floor)
+
+
+def test_a_hit_stands_for_its_receivers(floor):
+    hit = floor.closest_hit([[0.0, 1, 0], [0.5, 1, 0.5]], (0.0, -1, 0))
+    for ask in (
+        lambda at: floor.irradiance(at, shadow_rays=4),
+        lambda at: floor.ambient_occlusion(at, rays=4),
+        lambda at: floor.visible_fraction(at, light="lamp", rays=4),
+        lambda at: floor.occluded(at, (0.0, 3, 0)),
+        lambda at: floor.closest_hit(at, (0.0, 1, 0)).t,
+        lambda at: floor.sample_light(at, None, np.full((2, 3), 0.25)).direction,
+    ):
+        np.testing.assert_array_equal(ask(hit), ask(hit.receivers))
+
+
+def test_the_pieces_of_an_estimator_do_not_depend_on_threads(floor):
+    """More receivers than a thread takes at once: the same rows as when asked a few at a time."""
+    n = 5000
+    random = np.random.default_rng(3)
+    points = random.uniform(-1, 1, (n, 3)) * [1, 0, 1] + [0, 1, 0]
+    hit = floor.closest_hit(points, (0.0, -1, 0))
+    u, up = random.random((n, 3)), np.array([0.0, 1, 0])
+    drawn = floor.sample_light(hit, None, u, threads=2)
+    reflected = floor.brdf(hit, up, drawn.direction)
+    for run in (slice(0, 7), slice(3000, 3100)):
+        few = floor.sample_light(hit.receivers[run], None, u[run], threads=1)
+        for all_rows, rows in zip(drawn, few, strict=True):
+            np.testing.assert_array_equal(all_rows[run], rows)
+        np.testing.assert_array_equal(
+            reflected[run], floor.brdf(hit.receivers[run], up, drawn.direction[run])
+        )
+    with pytest.raises(ValueError, match=r"wi\[4321\] is"):
+        wrong = drawn.direction.astype(float)
+        wrong[4321:] = np.nan
+        floor.brdf(hit, up, wrong)
+
+
+def test_a_scene_shows_itself_in_a_notebook(floor):
+    shown = floor._repr_html_()
+    assert "Scene floor: 4 triangles" in shown and "<th>lights</th><td>lamp (area)</td>" in shown
+
+
+def test_an_error_that_is_not_known_is_said_to_be_unknown(floor):
+    image = floor.render(size=(8, 6), viewing_rays=1)
+    assert image.standard_error is None and image.relative_error is None
+    assert "standard error not known" in repr(image)
+    one = floor.irradiance([[0.0, 0, 0]], [[0.0, 1, 0]], shadow_rays=1)
+    assert np.isnan(one.standard_error).all() and "standard error not known" in repr(one)
+
+
+def test_an_environment_of_a_file_is_given_by_its_path(floor, tmp_path):
+    _core.write_picture(str(tmp_path / "grey.exr"), np.full((4, 8, 3), 0.5, np.float32))
+    lit = floor.render(size=(8, 6), viewing_rays=4, environment=tmp_path / "grey.exr")
+    assert lit.hash != floor.render(size=(8, 6), viewing_rays=4).hash
 
 
 def test_an_estimate_acts_as_its_array(floor):

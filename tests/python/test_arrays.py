@@ -161,7 +161,37 @@ UP = np.array([0.0, 1.0, 0.0])
             "transform has shape (3, 3): (4, 4)",
         ),
         (lambda s: s.add_mesh(SQUARE), TypeError, "faces are missing"),
-        (lambda s: s.add_mesh(SQUARE, FACES, material="red"), TypeError, "material is a str"),
+        (
+            lambda s: s.add_mesh(SQUARE, FACES, material="red"),
+            TypeError,
+            "material is 'red': one of antumbra.materials is needed (Diffuse, Mirror, ",
+        ),
+        (
+            lambda s: s.add_mesh(SQUARE, FACES, material=am.materials.Mirror),
+            TypeError,
+            "material is the class antumbra.materials.Mirror: one of its kind is needed, as antumbra.materials.Mirror(",
+        ),
+        (lambda s: s.add_light(3), TypeError, "light is 3: one of antumbra.lights is needed (Point, Spot, "),
+        (
+            lambda s: s.add_light(am.shapes.Sphere((0, 0, 0), 1)),
+            TypeError,
+            "light is of type antumbra.shapes.Sphere: one of antumbra.lights is needed",
+        ),
+        (
+            lambda s: s.add_shape("x"),
+            TypeError,
+            "shape is 'x': one of antumbra.shapes is needed (Sphere, Disk, ",
+        ),
+        (
+            lambda s: s.add_shape(np.zeros(3)),
+            TypeError,
+            "shape is of type numpy.ndarray: one of antumbra.shapes is needed",
+        ),
+        (
+            lambda s: s.irradiance(s.closest_hit(ORIGINS, -UP), UP),
+            ValueError,
+            "the receivers of a hit have their own normals: leave normals out",
+        ),
         (
             lambda s: s.add_mesh(SQUARE, FACES, emission=-1),
             ValueError,

@@ -13,7 +13,7 @@ from conftest import command
 
 SMALL = ["--size", "24x16", "--viewing-rays", "4"]
 ENDING = re.compile(
-    r"(?P<file>\S+)   [\d.]+ s · [\d,.]+( [MG])? shadow rays, [\d.e-]+ M/s · "
+    r"(?P<file>\S+)   [\d.]+ s · [\d,.]+( [MG])? rays( \([\d,.]+( [MG])? shadow rays\))?, [\d.e-]+ M/s · "
     r"standard error [\d.]+ % of the mean · same bits: [0-9a-f]{8}\n"
 )
 
@@ -69,12 +69,28 @@ def test_the_same_command_gives_the_same_bits_for_any_number_of_threads(antumbra
         (["render", "pillars", "-D", "light-size=big"], "-D light-size=big: a number is needed"),
         (["render", "pillars", "--up-axis", "z"], "--up-axis is for files"),
         (["render", "pillars", "--camera", "Tele"], 'there is no camera "Tele"'),
+        (
+            ["render", "pillars", "--camera", "camera 2"],
+            'there is no camera "camera 2"; did you mean "camera 1"?',
+        ),
         (["render", "pillars", "--light", "Moon"], 'there is no light "Moon"'),
+        (
+            ["render", "pillars", "-o", "a.png", "-o", "b.png"],
+            "-o is given 2 times (a.png, b.png): once is needed",
+        ),
+        (
+            ["render", "pillars", "--viewing-rays", "9" * 30],
+            f"--viewing-rays {'9' * 30}: at most 16,777,216 are possible",
+        ),
+        (["render", "pillars", "--up", "0,0,0"], "camera: up is 0, 0, 0: it points nowhere"),
+        (
+            ["render", "pillars", "--eye", "1,2,3", "--look-at", "1,2,3"],
+            "camera: eye and look-at are the same point",
+        ),
         (["render", "pillars", "--eye", "1,2"], "--eye 1,2: three numbers joined by commas are needed"),
         (["render", "pillars", "--crop", "600,0,100,10"], "does not lie in 640 x 480 pixels"),
         (["info"], "SCENE is missing (or --list, for the built-in scenes)"),
         (["diff", "a.exr", "b.exr"], "a.exr: cannot be read (no such file)"),
-        (["diff", "a.jpg", "b.exr"], '"a.jpg": a picture ends in .exr or .png'),
     ],
 )
 def test_bad_input_is_one_message_and_exit_2(arguments, said, antumbra, tmp_path):
@@ -114,7 +130,7 @@ def test_info_names_everything(antumbra):
     assert ended.code == 0
     rows = {line[:25].strip() for line in ended.out.splitlines()}
     assert {"pillars", "geometry", "lights", "cameras", "materials"} <= rows
-    assert "-D light-size=1" in ended.out
+    assert "-D light-size=1" in ended.out and '"light"' in ended.out and '"camera 1"' in ended.out
     assert max(map(len, ended.out.splitlines())) <= 140
 
 
@@ -134,6 +150,7 @@ def test_every_built_in_scene_is_listed_with_its_parameters(antumbra):
     text = antumbra("info", "--list").out
     for name, shows in am.builtins().items():
         assert name in text and shows in text
+    assert "10,000,000)" in text and not re.search(r"\de[+-]?\d", text), "numbers as people write them"
 
 
 def write(path, pixels):
@@ -159,12 +176,131 @@ def test_diff_measures_what_it_says(antumbra, tmp_path):
     assert am.load_image(tmp_path / "map.png").shape == (8, 12, 3)
 
 
+def test_parts_of_a_picture_compose_and_are_compared_where_they_lie(antumbra, tmp_path):
+    antumbra("render", "corner", *SMALL, "--exr", "float", "-o", "all.exr")
+    antumbra("render", "corner", *SMALL, "--exr", "float", "--crop", "5,3,10,8", "-o", "part.exr")
+    antumbra("render", "corner", *SMALL, "--exr", "float", "--crop", "0,0,3,3", "-o", "far.exr")
+    whole, part = am.load_image(tmp_path / "all.exr"), am.load_image(tmp_path / "part.exr")
+    np.testing.assert_array_equal(whole[3:11, 5:15], part)
+    ended = antumbra("diff", "part.exr", "all.exr", "--json")
+    assert json.loads(ended.out)["mse"] == 0
+    assert ended.err == "note: compared where both are: 10 × 8 pixels from 5, 3\n"
+    ended = antumbra("diff", "part.exr", "far.exr")
+    assert ended.code == 2
+    assert ended.err.startswith(
+        "error: part.exr is 10 × 8 at 5, 3 of 24 × 16, far.exr is 3 × 3 at 0, 0 of 24 × 16: the same size is needed"
+    )
+
+
 def test_diff_wants_the_same_size(antumbra, tmp_path):
     write(tmp_path / "a.png", np.zeros((8, 12, 3)))
     write(tmp_path / "b.png", np.zeros((8, 13, 3)))
     ended = antumbra("diff", "a.png", "b.png")
     assert ended.code == 2
     assert ended.err.startswith("error: a.png is 12 × 8, b.png is 13 × 8: the same size is needed")
+
+
+def test_every_light_and_camera_can_be_chosen_by_the_name_that_info_shows(antumbra, tmp_path):
+    (tmp_path / "two.gltf").write_text(json.dumps(TWO_OF_EACH), encoding="utf-8")
+    ended = antumbra("info", "two.gltf")
+    assert '2 point: "light 2" 113 W, "Lamp" 12.6 W' in ended.out
+    assert '"camera 1" (57.3° vertical), "camera 2" (28.6° vertical)' in ended.out
+    found = json.loads(antumbra("info", "two.gltf", "--json").out)
+    bits = set()
+    for light in found["lights"]:
+        for camera in found["cameras"]:
+            ended = antumbra(
+                "render", "two.gltf", *SMALL, "--light", light["name"], "--camera", camera["name"]
+            )
+            assert ended.code == 0, ended.err
+            bits.add(ended.out.split("same bits: ")[1])
+    assert len(bits) == 4
+    ended = antumbra("render", "two.gltf", "--light", "lihgt 2")
+    assert ended.err == (
+        'error: two.gltf: there is no light "lihgt 2"; did you mean "light 2"?\n'
+        '       Its lights are "Lamp", "light 2".\n'
+    )
+
+
+# A triangle, two point lights of which one has a name, and two cameras without one.
+TWO_OF_EACH = {
+    "asset": {"version": "2.0"},
+    "extensionsUsed": ["KHR_lights_punctual"],
+    "extensions": {
+        "KHR_lights_punctual": {
+            "lights": [{"type": "point", "intensity": 9}, {"type": "point", "name": "Lamp"}]
+        }
+    },
+    "cameras": [
+        {"type": "perspective", "perspective": {"yfov": 1.0, "znear": 0.1}},
+        {"type": "perspective", "perspective": {"yfov": 0.5, "znear": 0.1}},
+    ],
+    "buffers": [
+        {
+            "byteLength": 36,
+            "uri": "data:application/octet-stream;base64,AACAvwAAgL8AAAAAAACAPwAAgL8AAAAAAAAAAAAAgD8AAAAA",
+        }
+    ],
+    "bufferViews": [{"buffer": 0, "byteLength": 36}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+    "nodes": [
+        {"mesh": 0},
+        {"extensions": {"KHR_lights_punctual": {"light": 1}}, "translation": [0, 0, 2]},
+        {"extensions": {"KHR_lights_punctual": {"light": 0}}, "translation": [0, 1, 1]},
+        {"camera": 0, "translation": [0, 0, 3]},
+        {"camera": 1, "translation": [0, 0, 3]},
+    ],
+    "scenes": [{"nodes": [0, 1, 2, 3, 4]}],
+}
+
+
+def test_a_view_straight_down_gets_another_up_with_a_note(antumbra):
+    view = ["--eye", "0,9,0", "--look-at", "0,0,0"]
+    above = antumbra("render", "pillars", *SMALL, *view)
+    assert above.code == 0
+    assert above.err.startswith(
+        "note: the camera looks straight along its up direction 0, 1, 0: 0, 0, -1 is up in the picture (--up to choose)"
+    )
+    same = antumbra("render", "pillars", *SMALL, *view, "--up", "0,0,-1")
+    assert "note:" not in same.err
+    assert above.out.split("same bits")[1] == same.out.split("same bits")[1]
+
+
+def test_settings_without_effect_are_told_once_before_the_picture(antumbra):
+    ended = antumbra(
+        "render", "corner", *SMALL, "--radius", "0.5", "--rotate", "on", "--aov", "depth", "-o", "c.png"
+    )
+    assert ended.code == 0
+    assert ended.err.splitlines()[:-1] == [
+        "note: --radius 0.5 has no effect with --estimator path (only with ambient-occlusion)",
+        "note: --rotate on has no effect with --sampler owen (only with regular)",
+        "note: --aov depth has no effect on a .png (only on .exr)",
+    ]
+
+
+def test_the_rays_and_the_error_are_told_as_they_are(antumbra):
+    said = antumbra("render", "pillars", *SMALL, "--estimator", "hemisphere").out
+    assert "shadow rays" not in said and " rays, " in said
+    assert (
+        "4 viewing × 1 direction, owen"
+        in antumbra("render", "pillars", *SMALL, "--estimator", "hemisphere").err
+    )
+    said = antumbra("render", "pillars", "--size", "24x16", "--viewing-rays", "1").out
+    assert "standard error not known (fewer than 2 replicates)" in said
+
+
+def test_a_radiance_picture_is_compared_too(antumbra, tmp_path):
+    (tmp_path / "a.hdr").write_bytes(
+        b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 2\n" + b"\x80\x80\x80\x81" * 4
+    )
+    # (128 + ½)·2^(129 − 136)
+    write(tmp_path / "b.exr", np.full((2, 2, 3), 1.00390625))
+    assert json.loads(antumbra("diff", "a.hdr", "b.exr", "--json").out)["mse"] == 0
+    (tmp_path / "c.png").write_bytes(b"GIF89a")
+    ended = antumbra("diff", "c.png", "b.exr")
+    assert ended.code == 2
+    assert ended.err.startswith("error: c.png: this is no picture that antumbra reads")
 
 
 def test_the_command_works_as_a_process(tmp_path):

@@ -6,6 +6,7 @@ import os
 import re
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import antumbra as am
@@ -23,6 +24,7 @@ def test_help_is_as_it_was(name, antumbra, monkeypatch):
     if os.environ.get("ANTUMBRA_WRITE_SNAPSHOTS") == "1":
         file.write_text(text, encoding="utf-8")
     assert text == file.read_text(encoding="utf-8"), "ANTUMBRA_WRITE_SNAPSHOTS=1 accepts the new text"
+    assert text == antumbra(*([name, "-h"] if name else ["-h"])).out
 
 
 @pytest.mark.parametrize("name", verbs())
@@ -67,6 +69,9 @@ def test_python_values_become_the_words_that_people_type():
     }  # fmt: skip
     assert settings.words({"light": ["a", "b, c"]}) == {"light": "a\nb, c"}
     assert settings.words({"crop": None}) == {}
+    assert settings.words({"environment": Path("sky.hdr")}) == {"environment": "sky.hdr"}
+    numbers = {"shadow_rays": np.int64(9), "rotate": np.True_, "clay": np.float32(0.5)}
+    assert settings.words(numbers) == {"shadow_rays": "9", "rotate": "on", "clay": "0.5"}
 
 
 def test_values_that_are_no_values_are_told():
@@ -76,3 +81,7 @@ def test_values_that_are_no_values_are_told():
         settings.words({"shadow_ray": 1})
     with pytest.raises(ValueError, match="at least 1"):
         settings.words({"shadow_rays": 0})
+    with pytest.raises(am.OptionError, match=r"fov = 40: an angle above 0 and below π is needed, in radians"):
+        settings.words({"fov": 40})
+    with pytest.raises(TypeError, match="fov is a list: an angle in radians is needed"):
+        settings.words({"fov": [1]})

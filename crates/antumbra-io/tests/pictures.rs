@@ -7,8 +7,8 @@ use std::path::PathBuf;
 
 use antumbra_io::Limits;
 use antumbra_io::picture::{
-    Aov, Channels, Look, Picture, Precision, Tone, check_writable, exr_bytes, png_bytes, read_exr,
-    read_exr_bytes, read_png, write_exr, write_png, write_whole,
+    Aov, Channels, Look, Picture, Precision, Tone, Window, check_writable, exr_bytes, png_bytes, read_exr,
+    read_exr_bytes, read_picture, read_png, write_exr, write_png, write_whole,
 };
 use antumbra_math::hash::{hash2, unit_f32};
 
@@ -55,6 +55,7 @@ fn picture(width: u32, height: u32) -> Picture {
             ("light-points".into(), "area".into()),
             ("seed".into(), "7".into()),
         ],
+        window: None,
     }
 }
 
@@ -81,6 +82,33 @@ fn halves_are_the_nearest_ones_and_full_layers_stay() {
         // Eleven significant bits: half a unit in the last place is 2⁻¹¹ of the number; 2⁻²⁵ below the normal ones.
         (0..3).for_each(|c| assert!((a[c] - b[c]).abs() <= b[c].abs() / 2048.0 + 3e-8));
     }
+}
+
+#[test]
+fn a_part_of_a_picture_knows_where_it_lies() {
+    let window = Some(Window { x: 5, y: 40, width: 64, height: 90 });
+    let there = Picture { window, ..picture(37, 35) };
+    let back = read_exr_bytes(&exr_bytes(&there, Precision::Float).unwrap(), &Limits::default()).unwrap();
+    assert_eq!((back.window, back.pixels), (window, there.pixels));
+}
+
+#[test]
+fn pictures_are_known_by_their_first_bytes() {
+    let folder = Folder::new("kinds");
+    let path = folder.0.join("picture");
+    let said = |bytes: &[u8]| {
+        write_whole(&path, bytes).unwrap();
+        read_picture(&path)
+    };
+    let p = picture(4, 3);
+    assert_eq!(said(&exr_bytes(&p, Precision::Float).unwrap()).unwrap().pixels, p.pixels);
+    assert_eq!(said(&png_bytes(&p, &Look::default()).unwrap()).unwrap().width, 4);
+    // One pixel of mantissa 128: (128 + ½)·2^(129 − 136) = 1.00390625.
+    let hdr = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n\x80\x80\x80\x81";
+    assert_eq!(said(hdr).unwrap().pixels, [[1.003_906_25; 3]]);
+    let wrong = said(b"GIF89a").unwrap_err();
+    assert!(wrong.file.ends_with("picture") && wrong.hint.contains("OpenEXR"), "{wrong}");
+    assert!(said(b"").unwrap_err().to_string().ends_with("the file is empty (0 bytes)"));
 }
 
 #[test]

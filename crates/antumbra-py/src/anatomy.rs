@@ -11,8 +11,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 
 use crate::arrays::Rows;
-use crate::ask::Origins;
-use crate::query::in_runs;
+use crate::ask::{Origins, Wrong, watched};
 use crate::scene::{PyScene, said};
 use crate::{errors, settings};
 
@@ -31,12 +30,10 @@ impl PyScene {
     ) -> PyResult<(Counts<'py>, Bound<'py, PyArray1<bool>>)> {
         let scene = self.scene(py)?;
         let batch = self.batch(&scene, &origins, &ends, reach.as_ref())?;
-        let mut out = vec![Visited::default(); batch.starts.len()];
-        let run = out.len().max(1);
-        in_runs(py, &mut out, run, |_, out, wrong, watch| {
-            let fill = |run: Range<usize>, buffer: &mut SegmentBuffer| batch.gather(run, buffer, wrong);
-            query::visits(&scene, &fill, 0, out, watch);
-        })?;
+        let (mut out, wrong) = (vec![Visited::default(); batch.starts.len()], Wrong::default());
+        let fill = |run: Range<usize>, buffer: &mut SegmentBuffer| batch.gather(run, buffer, &wrong);
+        watched(py, |look| query::visits(&scene, &fill, 0, &mut out, &mut |_| look()))?;
+        wrong.raise()?;
         let counts = |v: &Visited| [v.any.boxes, v.any.primitives, v.closest.boxes, v.closest.primitives];
         let numbers: Vec<u32> = out.iter().flat_map(counts).collect();
         let counts =

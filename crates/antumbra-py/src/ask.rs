@@ -3,9 +3,8 @@
 use std::ops::Range;
 use std::sync::{Arc, Mutex, PoisonError};
 
-use antumbra::query::RayHit;
 use antumbra::scene::Scene;
-use antumbra::schedule::Flow;
+use antumbra::schedule::{self, Flow};
 use antumbra::sensor::Query;
 use antumbra::trace::{NO_PRIM, SegmentBuffer};
 use numpy::ndarray::{ArrayView1, Axis, Slice};
@@ -13,7 +12,7 @@ use pyo3::prelude::*;
 
 use crate::arrays::{Rows, View};
 use crate::errors;
-use crate::receivers::{Ray, Receivers, Start};
+use crate::receivers::{Receivers, Start};
 
 /// Where rays start: receivers of a hit, or bare points.
 #[derive(FromPyObject)]
@@ -123,16 +122,6 @@ impl Batch<'_> {
         Ok(Some(Entry { origin, end, reach, first }))
     }
 
-    /// Entry `i` with what it met, in few bytes.
-    pub fn ray(&self, i: usize, hit: &RayHit) -> Ray {
-        match self.entry(i) {
-            Ok(Some(Entry { origin, end, .. })) => {
-                Ray { o: origin, d: end, t: hit.t, prim: hit.prim, uv: hit.uv }
-            }
-            _ => Ray::MISS,
-        }
-    }
-
     /// The own surface is left out only where the ray leaves on the side that it starts from.
     fn first(&self, start: &Start, end: [f32; 3]) -> u32 {
         let along = match self.reach {
@@ -156,7 +145,8 @@ struct Entry {
 pub struct Wrong(Mutex<Option<(usize, String)>>);
 
 impl Wrong {
-    fn note(&self, i: usize, what: String) {
+    /// Entry `i` is wrong, and how.
+    pub fn note(&self, i: usize, what: String) {
         let mut first = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         if first.as_ref().is_none_or(|(known, _)| i < *known) {
             *first = Some((i, what));
@@ -172,15 +162,22 @@ impl Wrong {
     }
 }
 
-/// Asks Python whether Ctrl-C was pressed; what it raised is kept.
-pub fn look(raised: &mut Option<PyErr>) -> Flow {
-    match Python::attach(|py| py.check_signals()) {
-        Ok(()) => Flow::Continue,
-        Err(e) => {
-            *raised = Some(e);
-            Flow::Stop
-        }
-    }
+/// Does `work` without Python's lock; `look` asks Python now and then whether Ctrl-C was pressed, which is raised.
+pub fn watched<R: Send>(
+    py: Python<'_>,
+    work: impl FnOnce(&mut dyn FnMut() -> Flow) -> R + Send,
+) -> PyResult<R> {
+    let mut raised = None;
+    let done = py.detach(|| {
+        work(&mut || match Python::attach(|py| py.check_signals()) {
+            Ok(()) => Flow::Continue,
+            Err(e) => {
+                raised = Some(e);
+                Flow::Stop
+            }
+        })
+    });
+    raised.map_or(Ok(done), Err)
 }
 
 fn single(name: &str, i: usize, row: [f64; 3]) -> Result<[f32; 3], String> {
@@ -197,21 +194,30 @@ fn distance(t: f64, i: usize) -> Result<f32, String> {
 }
 
 /// The receivers that ask for light, and where each stands among the rows; rays that missed ask for none.
-pub fn queries(starts: Starts<'_>, normals: Option<View<'_>>) -> Result<(Vec<Query>, Vec<usize>), String> {
-    let mut queries = Vec::with_capacity(starts.len());
-    let mut rows = Vec::with_capacity(starts.len());
-    for i in 0..starts.len() {
-        let query = match (starts, normals) {
-            (Starts::Receivers(receivers), _) => receivers.query(i),
-            (Starts::Points(points), Some(normals)) => Some(bare(points, normals, i)?),
-            (Starts::Points(_), None) => return Err("normals are missing: one per point is needed".into()),
-        };
-        if let Some(query) = query {
-            queries.push(query);
-            rows.push(i);
+pub fn queries(
+    py: Python<'_>,
+    starts: Starts<'_>,
+    normals: Option<View<'_>>,
+) -> PyResult<(Vec<Query>, Vec<usize>)> {
+    const CHUNK: usize = 4096;
+    let one = |i: usize| match (starts, normals) {
+        (Starts::Receivers(receivers), _) => Ok(receivers.query(i)),
+        (Starts::Points(points), Some(normals)) => bare(points, normals, i).map(Some),
+        (Starts::Points(_), None) => Err("normals are missing: one per point is needed".into()),
+    };
+    let (mut all, wrong) = (vec![None; starts.len()], Wrong::default());
+    let ask = |from: usize, out: &mut [Option<Query>], _: &mut ()| {
+        for (i, out) in (from..).zip(out) {
+            match one(i) {
+                Ok(query) => *out = query,
+                Err(what) => wrong.note(i, what),
+            }
         }
-    }
-    Ok((queries, rows))
+    };
+    watched(py, |look| schedule::chunks(&mut all, CHUNK, 0, ask, &mut |_| look()))?;
+    wrong.raise()?;
+    let rows = (0..all.len()).filter(|i| all[*i].is_some()).collect();
+    Ok((all.into_iter().flatten().collect(), rows))
 }
 
 fn bare(points: View<'_>, normals: View<'_>, i: usize) -> Result<Query, String> {

@@ -106,9 +106,16 @@ fn kind(light: &Light) -> &'static str {
 fn lights(scene: &Scene) -> Vec<Counted> {
     let names = scene.light_names();
     let parts: HashSet<usize> = scene.objects.iter().flat_map(|o| emitted(scene, o)).collect();
-    let one = |(id, light): (usize, &Light), power: f32| {
-        let name = names.slots.iter().position(|slot| *slot as usize == id).map(|i| names.names[i].clone());
-        Counted { name: name.unwrap_or_default(), kind: kind(light), power }
+    let mut name_of = vec![""; scene.lights().len()];
+    for (name, slot) in names.names.iter().zip(&names.slots) {
+        if let Some(own) = name_of.get_mut(*slot as usize) {
+            *own = name;
+        }
+    }
+    let one = |(id, light): (usize, &Light), power: f32| Counted {
+        name: name_of[id].into(),
+        kind: kind(light),
+        power,
     };
     let of = |id: &usize| scene.lights().get(*id).map_or(0.0, |l| l.power(scene.radius()));
     let single = scene.lights().iter().enumerate().filter(|(id, _)| !parts.contains(id));
@@ -116,7 +123,11 @@ fn lights(scene: &Scene) -> Vec<Counted> {
     for object in scene.objects.iter() {
         let ids = emitted(scene, object);
         if !ids.is_empty() {
-            all.push(Counted { name: object.name.clone(), kind: "area", power: ids.iter().map(of).sum() });
+            let name = match object.emits {
+                Emits::Each(first) => names.names[first as usize].clone(),
+                _ => object.name.clone(),
+            };
+            all.push(Counted { name, kind: "area", power: ids.iter().map(of).sum() });
         }
     }
     all

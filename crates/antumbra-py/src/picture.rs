@@ -16,6 +16,9 @@ use crate::errors;
 /// Layers whose numbers a half does not hold well.
 const FULL: [&str; 4] = ["position", "depth", "sample-count", "standard-error"];
 
+/// passes done, passes, shadow rays, other rays, hash, window.
+type Counts = (u32, u32, u64, u64, u32, [u32; 4]);
+
 /// What `render` returned, or what was pickled of it.
 #[pyclass(frozen, module = "antumbra._core")]
 pub struct Picture {
@@ -36,6 +39,7 @@ impl Picture {
 
     fn to_file(&self) -> file::Picture {
         let r = &self.rendered;
+        let [x, y, width, height] = r.window;
         let layer = |(name, channels, values): &(String, usize, Vec<f32>)| {
             let full = match self.exr {
                 ExrNumbers::Auto => FULL.contains(&name.as_str()) || !fits_half(values),
@@ -53,6 +57,7 @@ impl Picture {
             pixels: r.pixels.clone(),
             aovs: r.aovs.iter().map(layer).collect(),
             metadata: r.metadata.clone(),
+            window: Some(file::Window { x: x as i32, y: y as i32, width, height }),
         }
     }
 
@@ -185,10 +190,10 @@ impl Picture {
         Option<Bound<'py, PyArray3<f32>>>,
         Vec<(String, Bound<'py, PyArrayDyn<f32>>)>,
         Vec<(String, String)>,
-        (u32, u32, u64, u64, u32),
+        Counts,
     )> {
         let r = &self.rendered;
-        let counts = (r.passes_done, r.passes, r.segments, r.rays, r.hash);
+        let counts = (r.passes_done, r.passes, r.segments, r.rays, r.hash, r.window);
         Ok((self.pixels(py)?, self.standard_error(py)?, self.aovs(py)?, self.metadata(), counts))
     }
 
@@ -199,12 +204,12 @@ impl Picture {
         standard_error: Option<PyReadonlyArray3<'_, f32>>,
         aovs: Vec<(String, PyReadonlyArrayDyn<'_, f32>)>,
         metadata: Vec<(String, String)>,
-        counts: (u32, u32, u64, u64, u32),
+        counts: Counts,
     ) -> PyResult<Picture> {
         let [height, width, _] = *pixels.as_array().shape() else {
             return Err(errors::value("pixels: (H, W, 3)"));
         };
-        let (passes_done, passes, segments, rays, hash) = counts;
+        let (passes_done, passes, segments, rays, hash, window) = counts;
         let plane = |(name, array): (String, PyReadonlyArrayDyn<'_, f32>)| {
             let array = array.as_array();
             (name, array.shape().get(2).copied().unwrap_or(1), array.iter().copied().collect())
@@ -222,6 +227,7 @@ impl Picture {
             segments,
             rays,
             hash,
+            window,
         };
         let settings = settings_of(&rendered.metadata);
         Ok(Picture::new(rendered, &settings))
@@ -253,17 +259,20 @@ fn suffix(path: &Path) -> String {
     path.extension().and_then(|e| e.to_str()).unwrap_or("").to_ascii_lowercase()
 }
 
-/// Reads an EXR or PNG as linear (H, W, 3) float32.
+/// Reads an EXR, HDR or PNG as linear (H, W, 3) float32.
 #[pyfunction]
 pub fn read_picture<'py>(py: Python<'py>, path: &str) -> PyResult<Bound<'py, PyArray3<f32>>> {
-    let from = Path::new(path);
-    let read = match suffix(from).as_str() {
-        "exr" => py.detach(|| file::read_exr(from)),
-        "png" => py.detach(|| file::read_png(from)),
-        _ => return Err(errors::choice(format!("\"{path}\": a picture ends in .exr or .png"))),
-    };
-    let picture = read.map_err(|e| errors::read(&e))?;
-    image(py, [picture.height as usize, picture.width as usize], picture.pixels.into_flattened())
+    read_part(py, path).map(|(pixels, _)| pixels)
+}
+
+/// The same, and where it lies: x and y of its upper left pixel, width and height of the whole picture.
+#[pyfunction]
+pub fn read_part<'py>(py: Python<'py>, path: &str) -> PyResult<(Bound<'py, PyArray3<f32>>, [i64; 4])> {
+    let picture = py.detach(|| file::read_picture(Path::new(path))).map_err(|e| errors::read(&e))?;
+    let window = picture.window.unwrap_or(file::Window::of([picture.width, picture.height]));
+    let part = [window.x.into(), window.y.into(), window.width.into(), window.height.into()];
+    let shape = [picture.height as usize, picture.width as usize];
+    Ok((image(py, shape, picture.pixels.into_flattened())?, part))
 }
 
 /// Writes an (H, W, 3) float32 picture of linear colours as a PNG or EXR, whole or not at all.

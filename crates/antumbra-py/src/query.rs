@@ -5,9 +5,9 @@ use std::sync::Arc;
 
 use antumbra::light::LightId;
 use antumbra::math::Vec3;
-use antumbra::query::{self, Estimated, RayHit, Region};
+use antumbra::query::{self, Estimated, LightDraw, RayHit, Region};
 use antumbra::render;
-use antumbra::scene::Scene;
+use antumbra::scene::{Scene, SceneError};
 use antumbra::schedule::Flow;
 use antumbra::sensor::Query;
 use antumbra::settings::Settings;
@@ -17,8 +17,8 @@ use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray1};
 use pyo3::prelude::*;
 
 use crate::arrays::{Rows, columns};
-use crate::ask::{Batch, Origins, Starts, Wrong, look, queries};
-use crate::receivers::{Hits, Ray, Receivers};
+use crate::ask::{Batch, Origins, Starts, Wrong, queries, watched};
+use crate::receivers::{Hits, Receivers};
 use crate::scene::PyScene;
 use crate::{errors, settings};
 
@@ -40,12 +40,10 @@ impl PyScene {
     ) -> PyResult<Bound<'py, PyArray1<bool>>> {
         let scene = self.scene(py)?;
         let batch = self.batch(&scene, &origins, &ends, reach.as_ref())?;
-        let mut out = vec![false; batch.starts.len()];
-        let run = out.len().max(1);
-        in_runs(py, &mut out, run, |_, out, wrong, watch| {
-            let fill = |run: Range<usize>, buffer: &mut SegmentBuffer| batch.gather(run, buffer, wrong);
-            query::occluded(&scene, &fill, 0, out, watch);
-        })?;
+        let (mut out, wrong) = (vec![false; batch.starts.len()], Wrong::default());
+        let fill = |run: Range<usize>, buffer: &mut SegmentBuffer| batch.gather(run, buffer, &wrong);
+        watched(py, |look| query::occluded(&scene, &fill, 0, &mut out, &mut |_| look()))?;
+        wrong.raise()?;
         Ok(out.into_pyarray(py))
     }
 
@@ -59,18 +57,11 @@ impl PyScene {
     ) -> PyResult<Hits> {
         let scene = self.scene(py)?;
         let batch = self.batch(&scene, &origins, &directions, Some(&reach))?;
-        let mut out = vec![Ray::MISS; batch.starts.len()];
-        in_runs(py, &mut out, RUN, |from, out, wrong, watch| {
-            let mut hits = vec![RayHit::MISS; out.len()];
-            let fill = |run: Range<usize>, buffer: &mut SegmentBuffer| {
-                batch.gather(from + run.start..from + run.end, buffer, wrong);
-            };
-            query::closest_hit(&scene, &fill, 0, &mut hits, watch);
-            for (i, (out, hit)) in out.iter_mut().zip(&hits).enumerate() {
-                *out = batch.ray(from + i, hit);
-            }
-        })?;
-        Ok(Hits::new(scene, out, self.origin()))
+        let (mut out, wrong) = (vec![RayHit::MISS; batch.starts.len()], Wrong::default());
+        let fill = |run: Range<usize>, buffer: &mut SegmentBuffer| batch.gather(run, buffer, &wrong);
+        watched(py, |look| query::closest_hit(&scene, &fill, 0, &mut out, &mut |_| look()))?;
+        wrong.raise()?;
+        Ok(Hits::new(Arc::clone(&scene), out, self.origin()))
     }
 
     /// Irradiance and its standard error, (N, 3) float32 each.
@@ -134,13 +125,8 @@ impl PyScene {
         let settings = settings::parse_query(&words)?;
         let scene = self.scene(py)?;
         let number = light_number(&scene, light)?;
-        let (queries, rows, n) = self.gather(&scene, &points, normals.as_ref())?;
-        let mut raised = None;
-        let found =
-            py.detach(|| query::regions(&scene, &queries, number, &settings, &mut |_| look(&mut raised)));
-        if let Some(e) = raised {
-            return Err(e);
-        }
+        let (queries, rows, n) = self.gather(py, &scene, &points, normals.as_ref())?;
+        let found = watched(py, |look| query::regions(&scene, &queries, number, &settings, &mut |_| look()))?;
         let codes: Vec<i8> = found.into_iter().map(Region::code).collect();
         Ok(spread(&codes, &rows, n, Region::code(None)).into_pyarray(py))
     }
@@ -158,19 +144,22 @@ impl PyScene {
     {
         let scene = self.scene(py)?;
         let settings = settings::parse(&words)?;
-        let (queries, rows, n) = self.gather(&scene, &points, normals.as_ref())?;
+        let (queries, rows, n) = self.gather(py, &scene, &points, normals.as_ref())?;
         let u = u.view();
         let numbers: Result<Vec<[f32; 3]>, String> =
             rows.iter().map(|i| unit(u.finite::<3>("u", *i)?, *i)).collect();
         let numbers = numbers.map_err(errors::value)?;
-        let drawn = py.detach(|| query::sample_light(&scene, &queries, &numbers, &settings));
+        let drawn =
+            watched(py, |look| query::sample_light(&scene, &queries, &numbers, &settings, &mut |_| look()))?;
+        let drawn = spread(&drawn, &rows, n, LightDraw::NONE);
+        let rows = |of: fn(&LightDraw) -> [f32; 3]| drawn.iter().map(of).collect::<Vec<_>>();
         Ok((
-            table(py, &spread(&drawn.direction, &rows, n, [0.0; 3]))?,
-            self.places(py, spread(&drawn.target, &rows, n, [0.0; 3]).into_iter())?,
-            spread(&drawn.distance, &rows, n, 0.0).into_pyarray(py),
-            table(py, &spread(&drawn.radiance, &rows, n, [0.0; 3]))?,
-            spread(&drawn.pdf, &rows, n, 1.0).into_pyarray(py),
-            spread(&drawn.light, &rows, n, 0).into_pyarray(py),
+            table(py, &rows(|d| d.direction))?,
+            self.places(py, drawn.iter().map(|d| d.target))?,
+            drawn.iter().map(|d| d.distance).collect::<Array1<_>>().into_pyarray(py),
+            table(py, &rows(|d| d.radiance))?,
+            drawn.iter().map(|d| d.pdf).collect::<Array1<_>>().into_pyarray(py),
+            drawn.iter().map(|d| d.light).collect::<Array1<_>>().into_pyarray(py),
         ))
     }
 
@@ -185,17 +174,16 @@ impl PyScene {
         let (wo, wi) = (wo.view(), wi.view());
         columns("wo", &wo, 3)?;
         columns("wi", &wi, 3)?;
-        let receivers: &Receivers = &receivers;
-        let value = |i: usize| -> Result<[f32; 3], String> {
-            let (wo, wi) = (wo.finite::<3>("wo", i)?, wi.finite::<3>("wi", i)?);
-            let Some(met) = receivers.met(i) else { return Ok([0.0; 3]) };
-            let at = met.receiver;
-            let [wo, wi] = [wo, wi].map(|w| Vec3::from(w.map(|c| c as f32)));
-            let seen = at.sees_side(wo) && at.sees_side(wi);
-            Ok(if seen { at.bsdf.eval(at.to_local(wo), at.to_local(wi)).0 } else { [0.0; 3] })
+        let (receivers, wrong): (&Receivers, _) = (&receivers, Wrong::default());
+        let directions = |i: usize| {
+            let pair = wo.finite::<3>("wo", i).and_then(|wo| Ok([wo, wi.finite::<3>("wi", i)?]));
+            let pair = pair.map_err(|what| wrong.note(i, what)).ok()?;
+            Some(pair.map(|w| Vec3::from(w.map(|c| c as f32))))
         };
-        let values: Result<Vec<_>, String> = py.detach(|| (0..receivers.len()).map(value).collect());
-        table(py, &values.map_err(errors::value)?)
+        let (scene, rays) = (receivers.scene(), receivers.rays());
+        let values = watched(py, |look| query::brdf(scene, rays, &directions, 0, &mut |_| look()))?;
+        wrong.raise()?;
+        table(py, &values)
     }
 
     /// Origins and unit directions of one viewing ray through each pixel's centre, (H·W, 3) float64 each.
@@ -235,12 +223,13 @@ impl PyScene {
     /// The points that ask for light, each with its row; and how many rows there are.
     fn gather(
         &self,
+        py: Python<'_>,
         scene: &Arc<Scene>,
         points: &Origins<'_>,
         normals: Option<&Rows<'_>>,
     ) -> PyResult<(Vec<Query>, Vec<usize>, usize)> {
         let starts = points.view(scene, self.origin())?;
-        let (queries, rows) = queries(starts, normals.map(Rows::view)).map_err(errors::value)?;
+        let (queries, rows) = queries(py, starts, normals.map(Rows::view))?;
         Ok((queries, rows, starts.len()))
     }
 
@@ -266,43 +255,13 @@ impl PyScene {
         let around = crate::render::environment(py, &settings)?;
         let scene = self.scene(py)?;
         let lit = settings.lit(&scene, around.0).map_err(|e| errors::scene(&e, self.file()))?;
-        let (queries, rows, n) = self.gather(&scene, points, normals)?;
-        let mut raised = None;
-        let estimated = py.detach(|| ask(&lit, &queries, &settings, &mut || look(&mut raised)));
-        match raised {
-            Some(e) => Err(e),
-            None => Ok(Estimated {
-                values: spread(&estimated.values, &rows, n, elsewhere),
-                standard_error: spread(&estimated.standard_error, &rows, n, [0.0; 3]),
-                rays_done: estimated.rays_done,
-            }),
-        }
-    }
-}
-
-/// Rays between two whole arrays of hits: bounds what those take.
-const RUN: usize = 1 << 19;
-
-/// Answers `out` in runs of `size` without Python's lock: `answer(from, run, wrong, watch)`. Ctrl-C raises KeyboardInterrupt.
-pub fn in_runs<T: Send>(
-    py: Python<'_>,
-    out: &mut [T],
-    size: usize,
-    answer: impl Fn(usize, &mut [T], &Wrong, &mut dyn FnMut(u64) -> Flow) + Sync,
-) -> PyResult<()> {
-    let wrong = Wrong::default();
-    let mut raised = None;
-    py.detach(|| {
-        for (k, run) in out.chunks_mut(size).enumerate() {
-            answer(k * size, run, &wrong, &mut |_| look(&mut raised));
-            if raised.is_some() {
-                break;
-            }
-        }
-    });
-    match raised {
-        Some(e) => Err(e),
-        None => wrong.raise(),
+        let (queries, rows, n) = self.gather(py, &scene, points, normals)?;
+        let estimated = watched(py, |look| ask(&lit, &queries, &settings, look))?;
+        Ok(Estimated {
+            values: spread(&estimated.values, &rows, n, elsewhere),
+            standard_error: spread(&estimated.standard_error, &rows, n, [0.0; 3]),
+            rays_done: estimated.rays_done,
+        })
     }
 }
 
@@ -330,15 +289,10 @@ fn light_number(scene: &Scene, light: &str) -> PyResult<LightId> {
     let names = scene.light_names();
     let by_name = names.names.iter().position(|name| name == light && !name.is_empty());
     let number = by_name.or_else(|| light.parse().ok()).filter(|n| *n < names.slots.len());
-    number.map(|n| names.slots[n]).filter(|slot| *slot != u32::MAX).ok_or_else(|| {
-        let mut known: Vec<&str> = names.names.iter().map(String::as_str).filter(|n| !n.is_empty()).collect();
-        known.dedup();
-        known.truncate(20);
-        let listed = if known.is_empty() { String::new() } else { format!(": {}", known.join(", ")) };
-        errors::choice(format!(
-            "there is no light \"{light}\" among the {} of the scene{listed}",
-            names.slots.len()
-        ))
+    let slot = number.map(|n| names.slots[n]).filter(|slot| *slot != u32::MAX);
+    slot.ok_or_else(|| {
+        let unknown = SceneError::unknown("light", light, &scene.distinct_light_names());
+        errors::choice(format!("{}. {}", unknown.what, unknown.hint))
     })
 }
 

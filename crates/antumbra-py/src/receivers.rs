@@ -3,38 +3,17 @@
 use std::sync::Arc;
 
 use antumbra::math::Vec3;
-use antumbra::scene::{Look, Met, Scene};
+use antumbra::query::RayHit;
+use antumbra::scene::{Met, Scene};
+use antumbra::schedule;
 use antumbra::sensor::Query;
 use antumbra::trace::{NO_PRIM, PrimId};
 use numpy::ndarray::Array2;
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray1};
 use pyo3::prelude::*;
 
+use crate::ask::watched;
 use crate::errors;
-
-/// A ray with what it met: small, because there may be millions; everything else follows from it.
-#[derive(Clone, Copy, Debug)]
-pub struct Ray {
-    /// Origin.
-    pub o: [f32; 3],
-    /// Direction, any length.
-    pub d: [f32; 3],
-    /// Ray parameter; +∞ for a miss.
-    pub t: f64,
-    /// What was met.
-    pub prim: PrimId,
-    /// Where on it.
-    pub uv: [f32; 2],
-}
-
-impl Ray {
-    /// A ray that met nothing.
-    pub const MISS: Ray = Ray { o: [0.0; 3], d: [0.0; 3], t: f64::INFINITY, prim: NO_PRIM, uv: [0.0; 2] };
-
-    fn position(&self) -> [f64; 3] {
-        [0, 1, 2].map(|k| f64::from(self.o[k]) + self.t * f64::from(self.d[k]))
-    }
-}
 
 /// Where a segment from a receiver starts.
 pub struct Start {
@@ -50,7 +29,7 @@ pub struct Start {
 #[pyclass(frozen, module = "antumbra._core")]
 pub struct Receivers {
     scene: Arc<Scene>,
-    rays: Arc<Vec<Ray>>,
+    rays: Arc<Vec<RayHit>>,
     /// What is added to a place of the scene to have it in the world.
     origin: [f64; 3],
 }
@@ -61,6 +40,11 @@ impl Receivers {
         &self.scene
     }
 
+    /// The rays that met them.
+    pub fn rays(&self) -> &[RayHit] {
+        &self.rays
+    }
+
     /// How many there are.
     pub fn len(&self) -> usize {
         self.rays.len()
@@ -68,9 +52,7 @@ impl Receivers {
 
     /// The surface at receiver `i`; `None` where the ray missed.
     pub fn met(&self, i: usize) -> Option<Met> {
-        let ray = &self.rays[i];
-        let meet = || self.scene.meet(ray.o.into(), ray.d.into(), ray.t, ray.prim, ray.uv, &Look::default());
-        (ray.prim != NO_PRIM).then(meet)
+        self.rays[i].met(&self.scene)
     }
 
     /// Where segments of receiver `i` start.
@@ -85,17 +67,25 @@ impl Receivers {
         Some(Query { p: self.rays[i].position(), n: start.normal, start: Some((start.origin, start.prim)) })
     }
 
+    /// A row for each receiver, NaN where the ray missed.
     fn table<'py>(
         &self,
         py: Python<'py>,
         row: impl Fn(usize) -> Option<[f64; 3]> + Sync,
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let values = py.detach(|| (0..self.len()).flat_map(|i| row(i).unwrap_or([f64::NAN; 3])).collect());
-        let array =
-            Array2::from_shape_vec((self.len(), 3), values).map_err(|e| errors::value(e.to_string()))?;
-        Ok(array.into_pyarray(py))
+        let mut values = vec![[f64::NAN; 3]; self.len()];
+        let fill = |from: usize, out: &mut [[f64; 3]], _: &mut ()| {
+            let found = |(i, out): (usize, &mut [f64; 3])| *out = row(from + i).unwrap_or(*out);
+            out.iter_mut().enumerate().for_each(found);
+        };
+        watched(py, |look| schedule::chunks(&mut values, CHUNK, 0, fill, &mut |_| look()))?;
+        let array = Array2::from_shape_vec((self.len(), 3), values.into_flattened());
+        Ok(array.map_err(|e| errors::value(e.to_string()))?.into_pyarray(py))
     }
 }
+
+/// Receivers that a thread takes at once.
+const CHUNK: usize = 4096;
 
 fn doubles(v: Vec3) -> [f64; 3] {
     v.to_array().map(f64::from)
@@ -105,7 +95,7 @@ fn doubles(v: Vec3) -> [f64; 3] {
 impl Receivers {
     /// (N, 3) float64; NaN where the ray missed.
     fn positions<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let place = |ray: &Ray| {
+        let place = |ray: &RayHit| {
             let p = ray.position();
             [0, 1, 2].map(|k| p[k] + self.origin[k])
         };
@@ -124,7 +114,7 @@ impl Receivers {
     /// Those of these numbers.
     fn take(&self, numbers: PyReadonlyArray1<'_, u64>) -> PyResult<Receivers> {
         let ray = |i: &u64| self.rays.get(*i as usize).copied();
-        let rays: Option<Vec<Ray>> = numbers.as_array().iter().map(ray).collect();
+        let rays: Option<Vec<RayHit>> = numbers.as_array().iter().map(ray).collect();
         let rays = rays.ok_or_else(|| errors::value(format!("there are {} receivers", self.len())))?;
         Ok(Receivers { scene: Arc::clone(&self.scene), rays: Arc::new(rays), origin: self.origin })
     }
@@ -138,12 +128,12 @@ pub struct Hits {
 
 impl Hits {
     /// What rays of a scene met.
-    pub fn new(scene: Arc<Scene>, rays: Vec<Ray>, origin: [f64; 3]) -> Hits {
+    pub fn new(scene: Arc<Scene>, rays: Vec<RayHit>, origin: [f64; 3]) -> Hits {
         Hits { receivers: Receivers { scene, rays: Arc::new(rays), origin } }
     }
 
     /// The number of the object and of the primitive in it.
-    fn located(&self, ray: &Ray) -> (u32, u32) {
+    fn located(&self, ray: &RayHit) -> (u32, u32) {
         if ray.prim == NO_PRIM {
             return (NO_PRIM, NO_PRIM);
         }

@@ -2,22 +2,21 @@
 
 mod explain;
 mod maps;
+mod view;
 
-use antumbra_math::{DVec3, Rgb, Vec3};
+use antumbra_math::{Rgb, Vec3};
 
 use crate::estimator::EstimatorKind;
 use crate::film::{Film, Planes};
 use crate::illuminate::{Job, LightPlanes};
 use crate::light::Light;
-use crate::scene::{Camera, Level, Message, Projection, Scene, SceneError};
+use crate::scene::{Camera, Level, Message, Scene, SceneError};
 use crate::schedule::{self, Finished, Flow, Progress};
 use crate::sensor::{CameraSensor, Seen, Tile, View};
 use crate::settings::{Masks, Settings};
+use view::{camera, view};
 
 pub use explain::{Explained, LightRay, SurfaceMet, ViewingRay, explain};
-
-/// Size of a picture whose scene names none.
-const DEFAULT_SIZE: [u32; 2] = [640, 480];
 
 /// A finished picture (or the part of it that was reached).
 #[derive(Clone, Debug)]
@@ -46,6 +45,8 @@ pub struct Picture {
     pub rays: u64,
     /// Hash of the pixels' bits: the same for any number of threads and any SIMD level.
     pub hash: u32,
+    /// Of which picture it is a part, and where: x and y of its upper left pixel, width and height of the whole.
+    pub window: [u32; 4],
 }
 
 /// Renders `scene`; `environment` replaces the light from all around (`Some(None)`: none).
@@ -151,68 +152,6 @@ fn seen(s: &Settings) -> Seen {
     if s.estimator == EstimatorKind::AmbientOcclusion { Seen::Open } else { Seen::Light }
 }
 
-/// The camera that the settings ask for: the scene's, one of its others, or one made from what is known.
-fn camera(scene: &Scene, s: &Settings, messages: &mut Vec<Message>) -> Result<Camera, SceneError> {
-    let mut camera = match (&s.camera, scene.cameras.first()) {
-        (Some(name), _) => {
-            let named = scene.cameras.iter().find(|c| c.name == *name);
-            let known: Vec<&str> = scene.cameras.iter().map(|c| c.name.as_str()).collect();
-            let hint = format!("its cameras are: {}", known.join(", "));
-            named
-                .cloned()
-                .ok_or_else(|| SceneError::new("", format!("there is no camera \"{name}\""), hint))?
-        }
-        (None, Some(camera)) => camera.clone(),
-        (None, None) => {
-            let [low, high] = match scene.bounds() {
-                Some(bounds) => bounds,
-                // Nothing but light: any camera sees it.
-                None if !scene.lights().is_empty() => [Vec3::NEG_ONE, Vec3::ONE],
-                None => {
-                    return Err(SceneError::new(
-                        "",
-                        "nothing to render: there is no geometry and no light",
-                        "",
-                    ));
-                }
-            };
-            if s.eye.is_none() {
-                let text = "no camera: made one that sees everything (--eye, --look-at to choose)".into();
-                messages.push(Message { level: Level::Note, place: String::new(), text });
-            }
-            Camera::seeing(low.as_dvec3(), high.as_dvec3())
-        }
-    };
-    let vector = |v: [f64; 3]| DVec3::from(v);
-    camera.eye = s.eye.map_or(camera.eye, vector);
-    camera.look_at = s.look_at.map_or(camera.look_at, vector);
-    camera.up = s.up.map_or(camera.up, vector);
-    if let Some(fov) = s.fov {
-        camera.projection = Projection::Perspective { vertical_fov: fov.to_radians() };
-    }
-    match camera.fault() {
-        Some(what) => Err(SceneError::new("camera", what, "choose other values of --eye, --look-at, --up")),
-        None => Ok(camera),
-    }
-}
-
-/// The size and the crop of the picture.
-fn view(camera: &Camera, s: &Settings) -> Result<View, SceneError> {
-    let of_aspect =
-        |a: f64| [DEFAULT_SIZE[0], ((f64::from(DEFAULT_SIZE[0]) / a).round() as u32).clamp(1, 1 << 14)];
-    let size = s.size.or(camera.size).or(camera.aspect.map(of_aspect)).unwrap_or(DEFAULT_SIZE);
-    let crop = s.crop.unwrap_or([0, 0, size[0], size[1]]);
-    let fits = |from: u32, length: u32, all: u32| u64::from(from) + u64::from(length) <= u64::from(all);
-    if !fits(crop[0], crop[2], size[0]) || !fits(crop[1], crop[3], size[1]) {
-        let what = format!(
-            "crop {},{},{},{} does not lie in {} x {} pixels",
-            crop[0], crop[1], crop[2], crop[3], size[0], size[1]
-        );
-        return Err(SceneError::new("", what, ""));
-    }
-    Ok(View { size, crop, viewing: s.viewing, filter: s.filter })
-}
-
 /// Films of tiles lie side by side.
 fn picture(scene: &Scene, s: &Settings, view: &View, finished: Finished, messages: Vec<Message>) -> Picture {
     let [width, height] = [view.crop[2], view.crop[3]];
@@ -257,6 +196,7 @@ fn picture(scene: &Scene, s: &Settings, view: &View, finished: Finished, message
         segments: finished.counts.segments,
         rays: finished.counts.rays,
         hash,
+        window: [view.crop[0], view.crop[1], view.size[0], view.size[1]],
     }
 }
 

@@ -15,7 +15,7 @@ use crate::light::LightPoints;
 use crate::sampler::{Pairing, SamplerKind};
 use crate::scene::Start;
 use crate::sensor::{Filter, Viewing};
-use value::choices;
+use value::{choices, grouped};
 
 /// One entry of the table.
 #[derive(Clone, Copy, Debug)]
@@ -26,7 +26,7 @@ pub struct Setting {
     pub group: &'static str,
     /// The word for its values in help ("N", "NAME", "X,Y,Z").
     pub metavar: &'static str,
-    /// The allowed words, if it is a choice.
+    /// The allowed words, if it is a choice or a list of words.
     pub choices: &'static [&'static str],
     /// Its default, as people would write it; empty = none.
     pub default: fn() -> String,
@@ -47,7 +47,7 @@ pub struct SettingError {
 }
 
 macro_rules! settings {
-    ($($group:literal { $($(#[doc = $help:literal])+ $name:ident: $ty:ty = $default:expr $(, $check:expr)?;)* })*) => {
+    ($($group:literal { $($(#[doc = $help:literal])+ $name:ident: $ty:ty $(as $metavar:literal)? = $default:expr $(, $check:expr)?;)* })*) => {
         /// A value for every setting.
         #[derive(Clone, Debug, PartialEq)]
         pub struct Settings {
@@ -62,7 +62,10 @@ macro_rules! settings {
         pub const TABLE: &[Setting] = &[$($(Setting {
             name: stringify!($name),
             group: $group,
-            metavar: <$ty as SettingValue>::METAVAR,
+            metavar: {
+                const WORDS: &[&str] = &[<$ty as SettingValue>::METAVAR $(, $metavar)?];
+                WORDS[WORDS.len() - 1]
+            },
             choices: <$ty as SettingValue>::CHOICES,
             default: || { let value: $ty = $default; value.show() },
             help: concat!($($help),+),
@@ -74,10 +77,8 @@ macro_rules! settings {
                 let key = name.replace('-', "_");
                 match key.as_str() {
                     $($(stringify!($name) => {
-                        let value = <$ty as SettingValue>::parse(text).map_err(|what| fault(name, text, what))?;
-                        $(let check: fn(&$ty) -> Result<(), String> = $check;
-                          check(&value).map_err(|what| fault(name, text, what))?;)?
-                        self.$name = value;
+                        let checks: &[value::Check<$ty>] = &[$($check)?];
+                        self.$name = value::read(text, checks).map_err(|what| fault(name, text, what))?;
                     })*)*
                     _ => return Err(unknown(name)),
                 }
@@ -111,7 +112,7 @@ settings! {
         /// Russian roulette on long paths
         roulette: bool = true;
         /// ambient occlusion: occluders beyond this distance do not count
-        radius: f32 = f32::INFINITY, |r| positive(*r);
+        radius: f32 as "R" = f32::INFINITY, |r| positive(*r);
         /// ambient occlusion: weight of an occluder at distance t: none, (1-t/R) or (1-t/R)²
         falloff: Falloff = Falloff::None;
     }
@@ -125,7 +126,7 @@ settings! {
         /// this way is up in the picture
         up: Option<[f64; 3]> = None;
         /// vertical angle of view in degrees
-        fov: Option<f64> = None, |f| f.map_or(Ok(()), |f| within(f, 1e-9, 179.9));
+        fov: Option<f64> as "DEGREES" = None, |f| f.map_or(Ok(()), angle);
         /// width x height of the picture in pixels
         size: Option<[u32; 2]> = None, |s| s.map_or(Ok(()), picture_size);
         /// render only this part of the picture: x,y of its upper left pixel, width, height
@@ -151,18 +152,18 @@ settings! {
     }
     "Looks" {
         /// brighten a PNG by this many stops
-        exposure: f32 = 0.0, |e| within(f64::from(*e), -100.0, 100.0);
+        exposure: f32 as "EV" = 0.0, |e| within(f64::from(*e), -100.0, 100.0);
         /// numbers in an EXR: auto = half, or float in layers that half cannot hold
         exr: ExrNumbers = ExrNumbers::Auto;
         /// tone curve of a PNG
         tone: Tone = Tone::Linear;
         /// every surface two-sided diffuse with this reflectance
-        clay: Option<f32> = None, |c| c.map_or(Ok(()), |c| within(f64::from(c), 0.0, 1.0));
+        clay: Option<f32> as "RHO" = None, |c| c.map_or(Ok(()), |c| within(f64::from(c), 0.0, 1.0));
         /// light from all around: a lat-long picture, sky, or none (default: the scene's own)
-        environment: Option<String> = None;
+        environment: Option<String> as "FILE|sky|none" = None;
         /// alpha masks: as the file says, or opaque
         masks: Masks = Masks::File;
-        /// pictures beside the main one, by name, joined by commas (EXR)
+        /// pictures beside the main one in an EXR, joined by commas, or all
         aov: Planes = Planes::NONE;
         /// aov regions: this many points inside each light and as many on its outline
         region_points: u32 = 64, |n| within(f64::from(*n), 4.0, 65_536.0);
@@ -174,7 +175,12 @@ settings! {
         self_intersection: Start = Start::Safe;
         /// off: what lies behind a light shadows it too
         distance_test: bool = true;
-        /// wrong on purpose
+        /// wrong on purpose. none: right;
+        /// no-cos-light: without cos θ′ at the light;
+        /// no-distance: without 1/r²;
+        /// wrong-measure: a density over the light's area taken for one over solid angle, or the other way round;
+        /// counted-twice: light points and directions both with full weight;
+        /// no-count: the samples' sum, not their mean
         mistake: Mistake = Mistake::None;
     }
     "Run" {
@@ -251,7 +257,7 @@ fn unknown(name: &str) -> SettingError {
 fn count(n: u32, most: u32, otherwise: &str) -> Result<(), String> {
     match n {
         0 => Err(format!("at least 1 is needed ({otherwise})")),
-        n if n > most => Err(format!("at most {most} are possible")),
+        n if n > most => Err(format!("at most {} are possible", grouped(most.into()))),
         _ => Ok(()),
     }
 }
@@ -264,11 +270,20 @@ fn within(x: f64, low: f64, high: f64) -> Result<(), String> {
     if (low..=high).contains(&x) { Ok(()) } else { Err(format!("a number from {low} to {high} is needed")) }
 }
 
+/// An angle of view [degrees].
+fn angle(x: f64) -> Result<(), String> {
+    if (1e-9..=179.9).contains(&x) {
+        Ok(())
+    } else {
+        Err("an angle above 0 and up to 179.9 is needed".into())
+    }
+}
+
 fn picture_size([w, h]: [u32; 2]) -> Result<(), String> {
     const MOST: u64 = 1 << 28;
     match u64::from(w) * u64::from(h) {
         0 => Err("both sides must be at least 1 pixel".into()),
-        n if n > MOST => Err(format!("a picture has at most {MOST} pixels")),
+        n if n > MOST => Err(format!("a picture has at most {} pixels", grouped(MOST))),
         _ => Ok(()),
     }
 }
@@ -295,7 +310,26 @@ mod tests {
         assert!(error.what.contains("shadow_rays"), "{error}");
         let error = Settings::default().set("estimator", "arae").unwrap_err();
         assert!(error.what.contains("did you mean \"area\"?"), "{error}");
-        let error = Settings::default().set("shadow_rays", "0").unwrap_err();
-        assert!(error.what.contains("at least 1"), "{error}");
+    }
+
+    #[test]
+    fn numbers_beyond_every_integer_are_told_the_limit_of_their_setting() {
+        for (name, text, said) in [
+            ("shadow_rays", "0", "at least 1 is needed"),
+            ("shadow_rays", "-3", "at least 1 is needed"),
+            ("viewing_rays", "99999999999999999999999", "at most 16,777,216 are possible"),
+            ("viewing_rays", "4294967295", "at most 16,777,216 are possible"),
+            ("seed", "4294967296", "a whole number from 0 to 4,294,967,295 is needed"),
+            ("seed", "-1", "a whole number from 0 to 4,294,967,295 is needed"),
+            ("seed", "1.5", "a whole number is needed"),
+            ("bounces", "99999999999", "a number from 0 to 1000 is needed"),
+            ("size", "99999999999x2", "a picture has at most 268,435,456 pixels"),
+            ("size", "-3x2", "both sides must be at least 1 pixel"),
+            ("size", "3", "width x height is needed"),
+            ("fov", "180", "an angle above 0 and up to 179.9 is needed"),
+        ] {
+            let error = Settings::default().set(name, text).unwrap_err();
+            assert!(error.what.contains(said), "{error}");
+        }
     }
 }

@@ -47,7 +47,13 @@ class Verb(click.Command):
         for setting, words in (own_words or {}).items():
             known[setting] = known[setting]._replace(choices=list(words), default=words[0])
         settings = [_option_of(s) for s in known.values() if s.group in set(groups)]
-        super().__init__(name, callback=run, params=[*own, *settings, *options, *_common()], help=run.__doc__)
+        super().__init__(
+            name,
+            callback=run,
+            params=[*own, *settings, *options, *_common()],
+            help=run.__doc__,
+            context_settings={"help_option_names": ["-h", "--help"]},
+        )
         self.examples = examples
         self.has_settings = bool(settings)
 
@@ -85,7 +91,27 @@ class Verb(click.Command):
             options = [p for p in self.params if isinstance(p, Option) and p.group == group]
             if options:
                 lines += ["", group, *(line for o in options for line in _option_lines(o, width))]
+        if any(isinstance(p, Option) and p.setting for p in self.params):
+            lines += ["", *textwrap.wrap(_TWICE, width, initial_indent="  ", subsequent_indent="  ")]
         return "\n".join(lines)
+
+
+_TWICE = (
+    "Of an option that is given twice, the last one counts, where it does not say that it may be repeated."
+)
+
+
+def output_option(metavar: str, text: str) -> Option:
+    """`-o`: one file, once; two would leave one out without a word."""
+
+    def once(_: click.Context, __: click.Parameter, given: tuple[str, ...]) -> str | None:
+        if len(given) > 1:
+            raise click.UsageError(f"-o is given {len(given)} times ({', '.join(given)}): once is needed")
+        return given[0] if given else None
+
+    return Option(
+        "-o", "--output", "output", group="Files", metavar=metavar, multiple=True, callback=once, help=text
+    )
 
 
 def _first_paragraph(text: str | None) -> str:
@@ -105,7 +131,8 @@ def _option_of(setting: Setting) -> Option:
 
 def _help_of(setting: Setting) -> str:
     text = as_typed(setting.help)
-    if setting.choices:
+    named = setting.metavar == "|".join(setting.choices) or all(f"{w}: " in text for w in setting.choices)
+    if setting.choices and not named:
         listed = (f"{word} (default)" if word == setting.default else word for word in setting.choices)
         return f"{text}: {', '.join(listed)}"
     return f"{text} [{setting.default}]" if setting.default else text

@@ -31,6 +31,9 @@ def run(arguments: list[str]) -> int:
         # The reader of our output went away (`| head`): nothing is wrong, and nobody is left to tell.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return DONE
+    except OSError as problem:
+        _say.error(str(problem))
+        return OURS
     except (KeyboardInterrupt, click.Abort):
         print("stopped", file=sys.stderr)
         return STOPPED

@@ -10,7 +10,7 @@ import click
 
 from antumbra import _core
 from antumbra.cli import _say
-from antumbra.cli._command import Option, Verb
+from antumbra.cli._command import Option, Verb, output_option
 
 if TYPE_CHECKING:
     import numpy as np
@@ -27,9 +27,9 @@ def run(a: str, b: str, output: str | None, json: bool, quiet: bool, verbose: bo
     """Compare picture A with the reference B: MSE, relMSE, FLIP, and a false-colour map of where they differ."""
     if output is not None and Path(output).suffix.lower() != ".png":
         raise click.UsageError(f'"{output}": the map is a .png')
-    first, second = _core.read_picture(a), _core.read_picture(b)
-    if first.shape != second.shape:
-        raise click.UsageError(f"{a} is {_size(first)}, {b} is {_size(second)}: the same size is needed")
+    first, second, part = _same_part(a, b)
+    if part and not quiet:
+        _say.note(f"compared where both are: {part}")
     shown = any(Path(name).suffix.lower() == ".png" for name in (a, b))
     found, error = measures(first, second, shown)
     if output is not None:
@@ -48,10 +48,37 @@ VERB = Verb(
         ("antumbra diff mine.png yours.png --json", "for programs"),
     ],
     options=[
-        Option("-o", "--output", "output", group="Files", metavar="FILE", help="the false-colour map, .png"),
+        output_option("FILE", "the false-colour map, .png"),
         Option("--json", is_flag=True, group="Run", help="the numbers as JSON"),
     ],
 )
+
+
+def _same_part(a: str, b: str) -> tuple[Picture, Picture, str]:
+    """The pixels that both files have, and which part that is if it is not all of both.
+
+    A cropped EXR knows where it lies in the whole picture; files of the same size are compared as they are.
+    """
+    (first, one), (second, other) = _core.read_part(a), _core.read_part(b)
+    if first.shape == second.shape and (one == other or one[2:] != other[2:]):
+        return first, second, ""
+    left, top = max(one[0], other[0]), max(one[1], other[1])
+    right = min(one[0] + first.shape[1], other[0] + second.shape[1])
+    bottom = min(one[1] + first.shape[0], other[1] + second.shape[0])
+    if one[2:] != other[2:] or left >= right or top >= bottom:
+        said = f"{a} is {_extent(first, one)}, {b} is {_extent(second, other)}"
+        raise click.UsageError(f"{said}: the same size is needed, or parts of one picture that overlap")
+
+    def cut(picture: Picture, at: list[int]) -> Picture:
+        return picture[top - at[1] : bottom - at[1], left - at[0] : right - at[0]]
+
+    return cut(first, one), cut(second, other), f"{right - left} × {bottom - top} pixels from {left}, {top}"
+
+
+def _extent(picture: Picture, at: list[int]) -> str:
+    size = f"{picture.shape[1]} × {picture.shape[0]}"
+    whole = at == [0, 0, picture.shape[1], picture.shape[0]]
+    return size if whole else f"{size} at {at[0]}, {at[1]} of {at[2]} × {at[3]}"
 
 
 def measures(picture: Picture, reference: Picture, shown: bool) -> tuple[dict[str, float], Picture]:

@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import json as json_module
+import re
+import shutil
+import textwrap
 import time
 from pathlib import Path
 from typing import Any
@@ -83,9 +86,14 @@ def _list() -> str:
 
 def _parameters(rows: list[tuple[str, float, float, float, str]]) -> list[str]:
     return [
-        f"  -D {f'{name}={default:g}':<18} {text} ({low:g} to {high:g})"
+        f"  -D {name + '=' + _typed(default):<18} {text} ({_say.exact(low)} to {_say.exact(high)})"
         for name, default, low, high, text in rows
     ]
+
+
+def _typed(number: float) -> str:
+    """As people type it: without commas."""
+    return _say.exact(number).replace(",", "")
 
 
 def _facts(scene: _core.Scene, named: str, seconds: float) -> dict[str, Any]:
@@ -109,12 +117,12 @@ def _text(found: dict[str, Any]) -> str:
         ("lights", _lights(found["lights"])),
         (
             "cameras",
-            ", ".join(_camera(c) for c in found["cameras"]) or "none (one is made that sees everything)",
+            _listed([_camera(c) for c in found["cameras"]]) or "none (one is made that sees everything)",
         ),
         ("materials", _materials(found)),
         ("looks wrong", " · ".join(found["looks_wrong"])),
     ]
-    lines = [f"{name:<{_COLUMN}}{text}" for name, text in rows if text]
+    lines = [line for name, text in rows if text for line in _wrapped(name, text)]
     return "\n".join(lines + _parameters([tuple(row) for row in found["parameters"]]))
 
 
@@ -133,25 +141,55 @@ def _geometry(found: dict[str, Any]) -> str:
 
 
 def _lights(lights: list[dict[str, Any]]) -> str:
-    kinds: dict[str, list[float]] = {}
+    """By kind, the strongest first, by the names that `--light` takes."""
+    kinds: dict[str, list[dict[str, Any]]] = {}
     for light in lights:
-        if light["kind"] != "environment":
-            kinds.setdefault(light["kind"], []).append(light["power"])
-    listed = [f"{len(powers):,} {kind} ({_powers(powers)} W)" for kind, powers in kinds.items()]
-    listed += [f"environment {light['name']}".strip() for light in lights if light["kind"] == "environment"]
-    return ", ".join(listed) or "none: the picture is black"
+        kinds.setdefault(light["kind"], []).append(light)
+    return " · ".join(_kind(kind, some) for kind, some in kinds.items()) or "none: the picture is black"
 
 
-def _powers(powers: list[float]) -> str:
-    most = [_say.significant(p) for p in sorted(powers, reverse=True)[:3]]
-    return ", ".join(most) + (", …" if len(powers) > 3 else "")
+def _kind(kind: str, lights: list[dict[str, Any]]) -> str:
+    if kind == "environment":
+        return f"environment {_listed([_quoted(light) for light in lights])}"
+    named: dict[str, list[float]] = {}
+    for light in lights:
+        named.setdefault(_quoted(light), []).append(light["power"])
+    ordered = sorted(named.items(), key=lambda entry: -sum(entry[1]))
+    listed = [f"{_times(name, len(each))} {_say.significant(sum(each))} W" for name, each in ordered]
+    return f"{len(lights):,} {kind}: {_listed(listed)}"
+
+
+def _times(name: str, n: int) -> str:
+    return name if n == 1 else f"{n:,} × {name}"
 
 
 def _camera(camera: dict[str, Any]) -> str:
-    name = camera["name"] or "unnamed"
     if camera["vertical_fov"] is None:
-        return f"{name} (parallel)"
-    return f"{name} ({_say.significant(camera['vertical_fov'] * 57.29577951308232)}° vertical)"
+        return f"{_quoted(camera)} (parallel)"
+    return f"{_quoted(camera)} ({_say.significant(camera['vertical_fov'] * 57.29577951308232)}° vertical)"
+
+
+def _quoted(named: dict[str, Any]) -> str:
+    return f'"{named["name"]}"'
+
+
+def _listed(parts: list[str], most: int = 6) -> str:
+    more = [f"{len(parts) - most:,} more (--json has all)"] if len(parts) > most else []
+    return ", ".join(parts[:most] + more)
+
+
+def _wrapped(name: str, text: str) -> list[str]:
+    width = min(max(shutil.get_terminal_size((100, 24)).columns, 60), 120)
+    # A number stays on the line of its unit.
+    joined = re.sub(r"(?<=[\d×]) (?=[A-Za-z×\d\"])", "\N{NO-BREAK SPACE}", text)
+    lines = textwrap.wrap(
+        joined,
+        width,
+        initial_indent=name.ljust(_COLUMN),
+        subsequent_indent=" " * _COLUMN,
+        break_on_hyphens=False,
+    )
+    return [line.replace("\N{NO-BREAK SPACE}", " ") for line in lines]
 
 
 def _materials(found: dict[str, Any]) -> str:

@@ -8,11 +8,12 @@ from typing import TYPE_CHECKING
 
 import click
 
-from antumbra import _core, settings
+from antumbra import _core, effects, settings
 from antumbra.cli import _say, _scene
-from antumbra.cli._command import GROUPS, Option, Verb
+from antumbra.cli._command import GROUPS, Verb, output_option
 from antumbra.cli._progress import Bar
 from antumbra.errors import RenderStopped
+from antumbra.settings import as_typed
 
 if TYPE_CHECKING:
     from antumbra.image import Image
@@ -38,6 +39,10 @@ def run(
     _check(settings, path)
     opened = _scene.open_scene(scene, definitions, up_axis, files_from)
     _scene.tell(opened, quiet)
+    told = effects.idle(settings, path.suffix.lower())
+    if not quiet:
+        for text in told:
+            _say.note(as_typed(text))
     head = f"  {opened.name} · {_facts(opened)} · {_plan(opened, settings)}"
     watched = sys.stderr.isatty()
     if watched and not quiet:
@@ -49,7 +54,7 @@ def run(
         return _stopped(stopped.image, path)
     image.save(path)
     if not quiet:
-        _say.messages("", image.messages)
+        _say.messages("", [said for said in image.messages if said.text not in told])
         if not watched:
             print(head, file=sys.stderr)
     print(_ending(image, path))
@@ -67,14 +72,7 @@ VERB = Verb(
         ("antumbra render pillars --estimator area --shadow-rays 9 -D light-size=0.5", ""),
     ],
     options=[
-        Option(
-            "-o",
-            "--output",
-            "output",
-            group="Files",
-            metavar="FILE",
-            help="the picture, .exr or .png [NAME.exr]",
-        ),
+        output_option("FILE", "the picture, .exr or .png [NAME.exr]"),
         *_scene.options(),
     ],
 )
@@ -97,26 +95,31 @@ def _check(given: dict[str, str], path: Path) -> None:
 
 
 def _facts(scene: _core.Scene) -> str:
-    return " · ".join(_say.some(n, word) for word, n in scene.counts())
+    return " · ".join(_say.some(n, word) for word, n in scene.counts()) or "nothing"
+
+
+# What `--shadow-rays` counts where it is no shadow ray.
+_SAMPLES = {"hemisphere": "direction", "path-hemisphere": "direction"}
 
 
 def _plan(scene: _core.Scene, given: dict[str, str]) -> str:
     value = {name: given.get(name, setting.default) for name, setting in settings.table().items()}
     width, height = scene.picture_size(list(given.items()))
-    shadow = _say.some(int(value["shadow_rays"]), "shadow ray")
+    shadow = _say.some(int(value["shadow_rays"]), _SAMPLES.get(value["estimator"], "shadow ray"))
     return f"{width} × {height} · {value['estimator']}, {value['viewing_rays']} viewing × {shadow}, {value['sampler']}"
 
 
 def _ending(image: Image, path: Path) -> str:
-    rate = image.shadow_rays / max(image.seconds, 1e-9)
-    parts = [
-        _say.seconds(image.seconds),
-        f"{_say.count(image.shadow_rays)} shadow rays, {_say.significant(rate / 1e6)} M/s",
-    ]
-    if image.relative_error is not None:
-        parts.append(f"standard error {_say.significant(100 * image.relative_error, 2)} % of the mean")
-    parts.append(f"same bits: {image.hash}")
+    parts = [_say.seconds(image.seconds), _rays(image), image.error_words, f"same bits: {image.hash}"]
     return f"{path}   {' · '.join(parts)}"
+
+
+def _rays(image: Image) -> str:
+    """Rays of all kinds, how many of them are shadow rays, and how many a second."""
+    every = image.rays + image.shadow_rays
+    shadow = f" ({_say.count(image.shadow_rays)} shadow rays)" if image.shadow_rays else ""
+    rate = _say.significant(every / max(image.seconds, 1e-9) / 1e6)
+    return f"{_say.count(every)} rays{shadow}, {rate} M/s"
 
 
 def _stopped(image: Image | None, path: Path) -> int:
@@ -124,7 +127,6 @@ def _stopped(image: Image | None, path: Path) -> int:
         print(f"stopped before the first pass was done; {path} was not written", file=sys.stderr)
     else:
         image.save(path)
-        print(
-            f"stopped after {image.passes_done} of {image.passes} passes; {path} holds them", file=sys.stderr
-        )
+        done = f"stopped after {image.passes_done:,} of {image.passes:,} passes"
+        print(f"{done}; {path} holds them, {image.error_words}", file=sys.stderr)
     return STOPPED

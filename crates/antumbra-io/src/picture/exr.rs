@@ -4,12 +4,12 @@ use std::io::Cursor;
 use std::path::Path;
 
 use exr::prelude::{
-    AnyChannel, AnyChannels, Blocks, Compression, Encoding, FlatSamples, Image, Layer, LayerAttributes,
-    LineOrder, Text, WritableImage,
+    AnyChannel, AnyChannels, Blocks, Compression, Encoding, FlatSamples, Image, ImageAttributes,
+    IntegerBounds, Layer, LayerAttributes, LineOrder, Text, Vec2, WritableImage,
 };
 use half::f16;
 
-use super::{Aov, Channels, Picture, Precision, write_whole};
+use super::{Aov, Channels, Picture, Precision, Window, write_whole};
 use crate::error::{ReadError, WriteError};
 use crate::files::read_limited;
 use crate::limits::Limits;
@@ -51,11 +51,16 @@ pub fn exr_bytes(picture: &Picture, precision: Precision) -> Result<Vec<u8>, Str
         line_order: LineOrder::Increasing,
     };
     let size = (picture.width as usize, picture.height as usize);
+    let window = picture.window.unwrap_or(Window::of([picture.width, picture.height]));
     let attributes = LayerAttributes {
+        // The data window lies inside the display window: parts of a picture compose.
+        layer_position: Vec2(window.x, window.y),
         software_name: Some(Text::from(concat!("antumbra ", env!("CARGO_PKG_VERSION")))),
         ..LayerAttributes::default()
     };
-    let image = Image::from_layer(Layer::new(size, attributes, encoding, AnyChannels::sort(list.into())));
+    let whole = IntegerBounds::from_dimensions((window.width as usize, window.height as usize));
+    let layer = Layer::new(size, attributes, encoding, AnyChannels::sort(list.into()));
+    let image = Image::new(ImageAttributes::new(whole), layer);
     let mut bytes = Vec::new();
     let written = image.write().non_parallel().to_buffered(Cursor::new(&mut bytes));
     written.map_err(|e| e.to_string())?;
@@ -136,9 +141,11 @@ pub fn read_exr_bytes(bytes: &[u8], limits: &Limits) -> Result<Picture, ReadErro
             None => return Err(ReadError::new("channels", "there are neither R, G, B nor Y")),
         },
     };
-    let Planes { width, height, .. } = planes;
+    let Planes { width, height, corner: [x, y], whole, .. } = planes;
+    let window = Window { x, y, width: whole[0], height: whole[1] };
+    let window = (window != Window::of([width, height])).then_some(window);
     let metadata = std::mem::take(&mut planes.text);
-    Ok(Picture { width, height, pixels, aovs: layers(planes), metadata })
+    Ok(Picture { width, height, pixels, aovs: layers(planes), metadata, window })
 }
 
 /// Groups `name.R`, `name.G`, `name.B` (or X, Y, Z).

@@ -2,11 +2,13 @@
 
 mod exr;
 mod png;
+mod read;
 mod tone;
 mod whole;
 
 pub use exr::{exr_bytes, read_exr, read_exr_bytes, write_exr};
 pub use png::{png_bytes, read_png, read_png_bytes, write_png};
+pub use read::read_picture;
 pub use tone::{Look, Tone};
 pub use whole::{check_writable, write_whole};
 
@@ -23,6 +25,28 @@ pub struct Picture {
     pub aovs: Vec<Aov>,
     /// Settings, seed, version, scene hash: names and values in their order.
     pub metadata: Vec<(String, String)>,
+    /// Where it lies, if it is a part of a larger picture (EXR).
+    pub window: Option<Window>,
+}
+
+/// Where a part of a picture lies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Window {
+    /// Column of its upper left pixel in the whole picture.
+    pub x: i32,
+    /// Row of its upper left pixel.
+    pub y: i32,
+    /// Columns of the whole picture.
+    pub width: u32,
+    /// Rows of the whole picture.
+    pub height: u32,
+}
+
+impl Window {
+    /// That of a whole picture.
+    pub fn of([width, height]: [u32; 2]) -> Window {
+        Window { x: 0, y: 0, width, height }
+    }
 }
 
 /// A layer of a picture.

@@ -79,7 +79,7 @@ pub fn read_png_bytes(bytes: &[u8], limits: &Limits) -> Result<Picture, ReadErro
         rgb.map(|k| linear[usize::from(k)])
     };
     let pixels = data[..frame.buffer_size()].chunks_exact(samples).map(pixel).collect();
-    Ok(Picture { width, height, pixels, aovs: Vec::new(), metadata: text(reader.info()) })
+    Ok(Picture { width, height, pixels, aovs: Vec::new(), metadata: text(reader.info()), window: None })
 }
 
 fn text(info: &png::Info) -> Vec<(String, String)> {

@@ -13,6 +13,9 @@ pub(crate) struct Planes {
     pub width: u32,
     /// Rows.
     pub height: u32,
+    /// Its upper left pixel in the display window, and the size of that window.
+    pub corner: [i32; 2],
+    pub whole: [u32; 2],
     /// Text attributes by name.
     pub text: Vec<(String, String)>,
     planes: Vec<(String, Vec<f32>)>,
@@ -87,10 +90,12 @@ pub(crate) fn planes(bytes: &[u8], limits: &Limits) -> Result<Planes, ReadError>
         .from_buffered(Cursor::new(bytes))
         .map_err(broken)?;
     let Some(first) = image.layer_data.first() else { return Err(ReadError::new("EXR", "it has no layer")) };
-    let size = first.size;
+    let (size, at, shown) = (first.size, first.attributes.layer_position, image.attributes.display_window);
     let mut planes = Planes {
         width: size.width() as u32,
         height: size.height() as u32,
+        corner: [at.x().saturating_sub(shown.position.x()), at.y().saturating_sub(shown.position.y())],
+        whole: [shown.size.width() as u32, shown.size.height() as u32],
         text: Vec::new(),
         planes: Vec::new(),
     };

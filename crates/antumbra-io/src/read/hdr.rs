@@ -4,7 +4,7 @@ use crate::error::ReadError;
 use crate::limits::Limits;
 
 /// A picture of linear radiance, row by row from the top.
-pub(super) struct Radiance {
+pub(crate) struct Radiance {
     pub width: u32,
     pub height: u32,
     pub pixels: Vec<[f32; 3]>,
@@ -25,7 +25,7 @@ struct Header {
 }
 
 /// Decodes a picture.
-pub(super) fn decode(bytes: &[u8], limits: &Limits) -> Result<Radiance, ReadError> {
+pub(crate) fn decode(bytes: &[u8], limits: &Limits) -> Result<Radiance, ReadError> {
     let head = header(bytes, limits)?;
     let (w, h) = (head.width, head.height);
     let pixels = w as u64 * h as u64;

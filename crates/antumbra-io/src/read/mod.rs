@@ -4,7 +4,7 @@
 mod environment;
 pub(crate) mod exr;
 mod gltf;
-mod hdr;
+pub(crate) mod hdr;
 mod obj;
 mod ply;
 mod polygon;

@@ -51,6 +51,16 @@ impl Planes {
     pub const REGIONS: Planes = Planes(1 << 12);
     /// All that can be asked for.
     pub const ALL: Planes = Planes((1 << 13) - 2);
+    /// The names of all that can be asked for.
+    pub const NAMES: &[&str] = &{
+        let mut names = [""; NAMED.len()];
+        let mut i = 0;
+        while i < NAMED.len() {
+            names[i] = NAMED[i].0;
+            i += 1;
+        }
+        names
+    };
 
     /// Both sets.
     pub const fn union(self, other: Planes) -> Planes {
@@ -87,11 +97,6 @@ impl Planes {
     /// The plane of this name.
     pub fn by_name(name: &str) -> Option<Planes> {
         NAMED.iter().find(|(n, ..)| *n == name).map(|(_, plane, _)| *plane)
-    }
-
-    /// All names.
-    pub fn names() -> Vec<&'static str> {
-        NAMED.iter().map(|(n, ..)| *n).collect()
     }
 
     /// The names in the set.

@@ -5,7 +5,9 @@ use antumbra_math::Vec3;
 use crate::estimator::{Estimator, EstimatorKind, LightChoice, Options, VisibleFraction};
 use crate::film::Planes;
 use crate::illuminate::{Job, LightPlanes};
-use crate::light::LightId;
+use crate::light::sampler::{Choose, LightSampler, Pick, Scratch};
+use crate::light::{End, LightId};
+use crate::receiver::Receiver;
 use crate::scene::Scene;
 use crate::schedule::{self, Flow, Progress};
 use crate::sensor::{PointSensor, Query, Seen};
@@ -116,73 +118,77 @@ impl Estimated {
     }
 }
 
-/// One light point for each query, from three numbers each (which light, where on it): what a student's own estimator
-/// of the area form needs.
-#[derive(Clone, Debug, Default)]
-pub struct LightDraws {
-    /// ω_i, unit vectors; 0 where there is no light point.
-    pub direction: Vec<[f32; 3]>,
+/// One light point for a receiver: what a student's own estimator of the area form needs.
+#[derive(Clone, Copy, Debug)]
+pub struct LightDraw {
+    /// ω_i, a unit vector; 0 where there is no light point.
+    pub direction: [f32; 3],
     /// Where the shadow ray ends, or a point far along ω_i for lights at infinity.
-    pub target: Vec<[f32; 3]>,
+    pub target: [f32; 3],
     /// Distance to the light point; +∞ at infinity.
-    pub distance: Vec<f32>,
+    pub distance: f32,
     /// L_e; for lights without size the irradiance at normal incidence.
-    pub radiance: Vec<[f32; 3]>,
+    pub radiance: [f32; 3],
     /// p(light) · p(ω_i) [1/sr]; lights without size: p(light).
-    pub pdf: Vec<f32>,
+    pub pdf: f32,
     /// Which light.
-    pub light: Vec<LightId>,
+    pub light: LightId,
 }
 
-/// Draws a light point for every query.
-pub fn sample_light(scene: &Scene, queries: &[Query], u: &[[f32; 3]], settings: &Settings) -> LightDraws {
-    use crate::light::sampler::{Choose, LightSampler};
+impl LightDraw {
+    /// No light can reach.
+    pub const NONE: LightDraw = LightDraw {
+        direction: [0.0; 3],
+        target: [0.0; 3],
+        distance: 0.0,
+        radiance: [0.0; 3],
+        pdf: 1.0,
+        light: 0,
+    };
+}
+
+/// Draws a light point for every query, from three numbers each (which light, where on it).
+pub fn sample_light(
+    scene: &Scene,
+    queries: &[Query],
+    u: &[[f32; 3]],
+    settings: &Settings,
+    watch: &mut dyn FnMut(u64) -> Flow,
+) -> Vec<LightDraw> {
+    const CHUNK: usize = 1024;
     let choose = match settings.lights {
         LightChoice::Power => Choose::Power,
         LightChoice::Contribution => Choose::Contribution,
         _ => Choose::Uniform,
     };
     let sampler = LightSampler::new(choose, scene.lights(), scene.radius());
-    let mut scratch = Vec::new();
-    let mut out = LightDraws::default();
-    for (query, u) in queries.iter().zip(u) {
-        let at = query.receiver(1.0);
-        let pick = sampler.prepare(scene.lights(), &at, &mut scratch).pick(u[0]);
-        let drawn = pick.and_then(|pick| {
-            let s = scene.lights()[pick.light as usize].sample(&at, [u[1], u[2]], settings.light_points)?;
-            Some((pick, s))
-        });
-        let Some((pick, s)) = drawn else {
-            out.push([0.0; 3], [0.0; 3], 0.0, [0.0; 3], 1.0, 0);
-            continue;
-        };
-        let target = match s.end {
-            crate::light::End::Point(q) => q,
-            crate::light::End::Infinity => {
-                Vec3::from(at.start) + s.wi * (4.0 * scene.radius() + 4.0 * at.p.length())
+    let mut out = vec![LightDraw::NONE; queries.len()];
+    let answer = |from: usize, out: &mut [LightDraw], scratch: &mut Scratch| {
+        for (i, out) in out.iter_mut().enumerate() {
+            let (at, u) = (queries[from + i].receiver(1.0), u[from + i]);
+            let pick = sampler.prepare(scene.lights(), &at, scratch).pick(u[0]);
+            if let Some(drawn) = pick.and_then(|pick| draw(scene, &at, pick, [u[1], u[2]], settings)) {
+                *out = drawn;
             }
-        };
-        let pdf = pick.prob * s.density.weight();
-        out.push(s.wi.to_array(), target.to_array(), s.distance, s.radiance.0, pdf, pick.light);
-    }
+        }
+    };
+    schedule::chunks(&mut out, CHUNK, settings.threads, answer, watch);
     out
 }
 
-impl LightDraws {
-    fn push(
-        &mut self,
-        wi: [f32; 3],
-        target: [f32; 3],
-        distance: f32,
-        radiance: [f32; 3],
-        pdf: f32,
-        light: LightId,
-    ) {
-        self.direction.push(wi);
-        self.target.push(target);
-        self.distance.push(distance);
-        self.radiance.push(radiance);
-        self.pdf.push(pdf);
-        self.light.push(light);
-    }
+/// A point of the light that was picked.
+fn draw(scene: &Scene, at: &Receiver, pick: Pick, u: [f32; 2], settings: &Settings) -> Option<LightDraw> {
+    let s = scene.lights()[pick.light as usize].sample(at, u, settings.light_points)?;
+    let target = match s.end {
+        End::Point(q) => q,
+        End::Infinity => Vec3::from(at.start) + s.wi * (4.0 * scene.radius() + 4.0 * at.p.length()),
+    };
+    Some(LightDraw {
+        direction: s.wi.to_array(),
+        target: target.to_array(),
+        distance: s.distance,
+        radiance: s.radiance.0,
+        pdf: pick.prob * s.density.weight(),
+        light: pick.light,
+    })
 }

@@ -3,10 +3,12 @@
 mod light;
 mod order;
 mod rays;
+mod reflect;
 mod regions;
 mod visits;
 
-pub use light::{Estimated, LightDraws, ambient_occlusion, irradiance, sample_light, visible_fraction};
+pub use light::{Estimated, LightDraw, ambient_occlusion, irradiance, sample_light, visible_fraction};
 pub use rays::{Fill, RayHit, closest_hit, occluded};
+pub use reflect::{Directions, brdf};
 pub use regions::{Region, RegionFinder, RegionScratch, regions};
 pub use visits::{Visited, visits};

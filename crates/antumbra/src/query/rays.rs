@@ -2,12 +2,10 @@
 
 use std::ops::Range;
 
-use antumbra_math::Vec3;
 use antumbra_trace::{Bits, Hits, NO_PRIM, PrimId, SegmentBuffer, Visibility};
 
 use super::order::Order;
-use crate::receiver::Receiver;
-use crate::scene::{Look, Scene};
+use crate::scene::{Look, Met, Scene};
 use crate::schedule::{self, Flow};
 
 /// Rays of a chunk: enough for the batch calls, small enough for the cache.
@@ -20,19 +18,19 @@ const SHARES: usize = 32;
 /// Writes the questions of a range into a buffer (it comes empty).
 pub type Fill<'a> = dyn Fn(Range<usize>, &mut SegmentBuffer) + Sync + 'a;
 
-/// What a ray meets first.
-#[derive(Clone, Copy, Debug)]
+/// A ray with what it meets first: small, because there may be millions; everything else follows from it.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RayHit {
+    /// Origin.
+    pub o: [f32; 3],
+    /// Direction, of any length.
+    pub d: [f32; 3],
     /// Ray parameter; +∞ for a miss.
     pub t: f64,
     /// The primitive, or `NO_PRIM`.
     pub prim: PrimId,
-    /// Its object, or `u32::MAX`.
-    pub object: u32,
     /// Weights of its second and third corner.
     pub uv: [f32; 2],
-    /// The surface there, ready to ask for light; `None` for a miss.
-    pub receiver: Option<Receiver>,
 }
 
 /// Whether anything lies strictly inside each segment; `watch` hears how many are answered.
@@ -79,20 +77,26 @@ pub fn closest_hit(
         let rays = buffer.as_segments();
         visibility.nearest(rays, hits);
         for (i, hit) in out.iter_mut().enumerate() {
-            let (t, prim, uv) = (hits.t[i], hits.prim[i], hits.uv[i]);
-            *hit = RayHit { t, prim, uv, ..RayHit::MISS };
-            if prim != NO_PRIM {
-                let (o, d) = (Vec3::from(rays.origin_at(i)), Vec3::from(rays.end_at(i)));
-                hit.object = scene.object_of(prim);
-                hit.receiver = Some(scene.meet(o, d, t, prim, uv, &Look::default()).receiver);
-            }
+            let (o, d) = (rays.origin_at(i), rays.end_at(i));
+            *hit = RayHit { o, d, t: hits.t[i], prim: hits.prim[i], uv: hits.uv[i] };
         }
     };
     schedule::chunks(out, CHUNK, threads, answer, watch);
 }
 
 impl RayHit {
-    /// Nothing was met.
+    /// A ray that met nothing.
     pub const MISS: RayHit =
-        RayHit { t: f64::INFINITY, prim: NO_PRIM, object: u32::MAX, uv: [0.0; 2], receiver: None };
+        RayHit { o: [0.0; 3], d: [0.0; 3], t: f64::INFINITY, prim: NO_PRIM, uv: [0.0; 2] };
+
+    /// Where the ray meets it.
+    pub fn position(&self) -> [f64; 3] {
+        [0, 1, 2].map(|k| f64::from(self.o[k]) + self.t * f64::from(self.d[k]))
+    }
+
+    /// The surface there, ready to ask for light; `None` for a miss.
+    pub fn met(&self, scene: &Scene) -> Option<Met> {
+        let meet = || scene.meet(self.o.into(), self.d.into(), self.t, self.prim, self.uv, &Look::default());
+        (self.prim != NO_PRIM).then(meet)
+    }
 }

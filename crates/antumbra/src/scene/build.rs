@@ -18,7 +18,7 @@ impl SceneBuilder {
         self.check_meshes()?;
         self.check_objects()?;
         self.check_lights();
-        self.drop_empty_cameras();
+        self.check_cameras();
         self.add_sky();
         let mut parts = Parts::default();
         let uses = self.mesh_uses();
@@ -31,7 +31,7 @@ impl SceneBuilder {
             }
         }
         for (name, light) in std::mem::take(&mut self.lights) {
-            parts.add_light(name, light, &mut self.materials);
+            parts.add_light(&name, light, &mut self.materials);
         }
         parts.add_emissive_objects(&self.materials)?;
         parts.finish(self, pool)
@@ -154,8 +154,14 @@ impl SceneBuilder {
         }
     }
 
-    fn drop_empty_cameras(&mut self) {
-        for camera in std::mem::take(&mut self.cameras) {
+    /// Cameras that cannot look are left out, with a warning; those without a name get one ("camera 2").
+    fn check_cameras(&mut self) {
+        for mut camera in std::mem::take(&mut self.cameras) {
+            if let Some(up) = camera.other_up() {
+                camera.up = up;
+                let text = "it looks straight along its up direction: another one is taken";
+                self.say(Level::Note, format!("camera \"{}\"", camera.name), text);
+            }
             match camera.fault() {
                 None => self.cameras.push(camera),
                 Some(what) => self.say(
@@ -164,6 +170,9 @@ impl SceneBuilder {
                     format!("{what}: left out"),
                 ),
             }
+        }
+        for (i, camera) in self.cameras.iter_mut().enumerate().filter(|(_, c)| c.name.is_empty()) {
+            camera.name = format!("camera {}", i + 1);
         }
     }
 

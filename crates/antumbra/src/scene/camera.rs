@@ -71,10 +71,17 @@ impl Camera {
 
     /// Why it cannot look, if it cannot.
     pub fn fault(&self) -> Option<String> {
-        let finite = self.eye.is_finite() && self.look_at.is_finite() && self.up.is_finite();
-        let forward = (self.look_at - self.eye).normalize_or_zero();
-        if !finite || forward == DVec3::ZERO || forward.cross(self.up).length() < 1e-9 * self.up.length() {
-            return Some("eye, look-at and up do not span a view".into());
+        if !(self.eye.is_finite() && self.look_at.is_finite() && self.up.is_finite()) {
+            return Some("eye, look-at or up is not finite".into());
+        }
+        if self.forward() == DVec3::ZERO {
+            return Some("eye and look-at are the same point".into());
+        }
+        if self.up == DVec3::ZERO {
+            return Some("up is 0, 0, 0: it points nowhere".into());
+        }
+        if self.is_along_up() {
+            return Some("it looks straight along its up direction".into());
         }
         match self.projection {
             Projection::Perspective { vertical_fov }
@@ -89,6 +96,22 @@ impl Camera {
         }
     }
 
+    fn forward(&self) -> DVec3 {
+        (self.look_at - self.eye).normalize_or_zero()
+    }
+
+    fn is_along_up(&self) -> bool {
+        self.forward().cross(self.up).length() < 1e-9 * self.up.length()
+    }
+
+    /// Where it looks straight along its up direction: another one, as if it had bent down (or up) from looking along
+    /// −z. `None` where up is good as it is.
+    pub fn other_up(&self) -> Option<DVec3> {
+        let y = self.forward().y;
+        let bent = if y.abs() > 0.5 { DVec3::new(0.0, 0.0, y.signum()) } else { DVec3::Y };
+        (self.up != DVec3::ZERO && self.is_along_up()).then_some(bent)
+    }
+
     /// A camera from the front right above that sees everything between two corners.
     pub fn seeing(low: DVec3, high: DVec3) -> Camera {
         let center = (low + high) * 0.5;
@@ -97,5 +120,35 @@ impl Camera {
         let away = DVec3::new(0.6, 0.45, 1.0).normalize();
         let distance = radius / antumbra_math::real::sin((fov / 2.0).to_radians());
         Camera::perspective(center + away * distance, center, fov)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_view_along_up_gets_another_up() {
+        for (look_at, up, other) in [
+            (DVec3::NEG_Y, DVec3::Y, Some(DVec3::NEG_Z)),
+            (DVec3::Y, DVec3::Y * 3.0, Some(DVec3::Z)),
+            (DVec3::NEG_Z, DVec3::Z, Some(DVec3::Y)),
+            (DVec3::X, DVec3::NEG_X, Some(DVec3::Y)),
+            (DVec3::new(1e-3, -1.0, 0.0), DVec3::Y, None),
+        ] {
+            let camera = Camera { up, ..Camera::perspective(DVec3::ZERO, look_at, 40.0) };
+            assert_eq!(camera.other_up(), other, "{look_at} {up}");
+            let mended = Camera { up: other.unwrap_or(up), ..camera };
+            assert_eq!((mended.fault(), mended.other_up()), (None, None));
+        }
+    }
+
+    #[test]
+    fn what_keeps_a_camera_from_looking_is_named() {
+        let camera = Camera::perspective(DVec3::X, DVec3::X, 40.0);
+        assert_eq!(camera.fault().unwrap(), "eye and look-at are the same point");
+        let camera = Camera { up: DVec3::ZERO, look_at: DVec3::ZERO, ..camera };
+        assert_eq!(camera.fault().unwrap(), "up is 0, 0, 0: it points nowhere");
+        assert_eq!(camera.other_up(), None);
     }
 }

@@ -37,6 +37,23 @@ impl SceneError {
     pub fn new(place: impl Into<String>, what: impl Into<String>, hint: impl Into<String>) -> SceneError {
         SceneError { place: place.into(), what: what.into(), hint: hint.into() }
     }
+
+    /// There is no light or camera (`kind`) of this name; the hint says which there are.
+    pub fn unknown(kind: &str, name: &str, known: &[&str]) -> SceneError {
+        const LISTED: usize = 20;
+        let near = nearest(name, known).map(|n| format!("; did you mean \"{n}\"?")).unwrap_or_default();
+        let hint = match known {
+            [] => format!("The scene has no {kind}."),
+            [only] => format!("Its only {kind} is \"{only}\"."),
+            _ => {
+                let listed: Vec<String> = known.iter().take(LISTED).map(|n| format!("\"{n}\"")).collect();
+                let more = known.len().saturating_sub(LISTED);
+                let more = if more > 0 { format!(" and {more} more") } else { String::new() };
+                format!("Its {kind}s are {}{more}.", listed.join(", "))
+            }
+        };
+        SceneError::new("", format!("there is no {kind} \"{name}\"{near}"), hint)
+    }
 }
 
 /// The known word nearest to `text`, if one is near (edit distance at most a third of its length, and at most 3).

@@ -25,6 +25,8 @@ pub(super) struct Parts {
     objects: Vec<Placed>,
     lights: Vec<Light>,
     names: Vec<String>,
+    /// Lights as people count them: an emissive object is one.
+    counted: u32,
 }
 
 impl Parts {
@@ -90,8 +92,15 @@ impl Parts {
         self.meshes.len() as u32 - 1
     }
 
+    /// The name of the next light: its own, or "light 2" for a second one without.
+    fn light_name(&mut self, own: &str) -> String {
+        self.counted += 1;
+        if own.is_empty() { format!("light {}", self.counted) } else { own.into() }
+    }
+
     /// A light, with the black surface that an area light brings.
-    pub(super) fn add_light(&mut self, name: String, light: Light, materials: &mut Vec<Material>) {
+    pub(super) fn add_light(&mut self, name: &str, light: Light, materials: &mut Vec<Material>) {
+        let name = self.light_name(name);
         if let Some(surface) = light.surface() {
             materials.push(Material::diffuse(Rgb::BLACK).named(&name));
             let material = materials.len() as u32 - 1;
@@ -136,6 +145,7 @@ impl Parts {
                 continue;
             }
             self.objects[i].emits = Emits::Each(self.lights.len() as u32);
+            let name = self.light_name(&name);
             self.names.extend(std::iter::repeat_n(name, lights.len()));
             self.lights.extend(lights);
         }

@@ -57,7 +57,7 @@ pub struct Placed {
 /// Names of all lights, and which of them shine.
 #[derive(Clone, Debug, Default)]
 pub struct LightNames {
-    /// Name of each light of the scene (may be empty).
+    /// Name of each light of the scene; the triangles of an object share one.
     pub names: Vec<String>,
     /// Where it stands among those that shine, or `u32::MAX`.
     pub slots: Vec<u32>,
@@ -165,6 +165,12 @@ impl Scene {
     /// The same scene asked at another SIMD level, with the same answers (copies the tree).
     pub fn at_level(&self, level: SimdLevel) -> Scene {
         Scene { world: Arc::new(World::clone(&self.world).with_level(level)), ..self.clone() }
+    }
+
+    /// The names of its lights, each once.
+    pub fn distinct_light_names(&self) -> Vec<&str> {
+        let mut seen = std::collections::HashSet::new();
+        self.light_names.names.iter().map(String::as_str).filter(|name| seen.insert(*name)).collect()
     }
 
     /// The same scene with only the lights of these names; `Err` = a name that no light has.

@@ -42,13 +42,9 @@ impl Settings {
         if self.light.is_empty() {
             return Ok(scene);
         }
-        scene.only_lights(&self.light).map_err(|unknown| {
-            let mut known: Vec<&str> = scene.light_names().names.iter().map(String::as_str).collect();
-            known.dedup();
-            known.truncate(20);
-            let hint = format!("its lights are: {}", known.join(", "));
-            SceneError::new("", format!("there is no light \"{unknown}\""), hint)
-        })
+        scene
+            .only_lights(&self.light)
+            .map_err(|unknown| SceneError::unknown("light", &unknown, &scene.distinct_light_names()))
     }
 
     /// How the scene is looked at.

@@ -8,12 +8,16 @@ use crate::scene::Start;
 pub trait SettingValue: Sized {
     /// The word for its values in help.
     const METAVAR: &'static str;
-    /// The allowed words, if it is a choice.
+    /// The allowed words, if it is a choice or a list of words.
     const CHOICES: &'static [&'static str] = &[];
     /// It may be given more than once.
     const REPEATS: bool = false;
     /// Reads it; the error says what would be right.
     fn parse(text: &str) -> Result<Self, String>;
+    /// What stands for a number that no value of this type can hold, so that the setting's own limit can tell it.
+    fn beyond(_text: &str) -> Option<Self> {
+        None
+    }
     /// Writes it so that `parse` reads it back; empty = none.
     fn show(&self) -> String;
 }
@@ -38,6 +42,25 @@ macro_rules! choices {
 }
 pub(super) use choices;
 
+/// Why a value lies outside of what its setting takes.
+pub(super) type Check<T> = fn(&T) -> Result<(), String>;
+
+/// Reads a value and checks it.
+pub(super) fn read<T: SettingValue>(text: &str, checks: &[Check<T>]) -> Result<T, String> {
+    let sound = |value: &T| checks.iter().try_for_each(|check| check(value));
+    match T::parse(text) {
+        Ok(value) => sound(&value).map(|()| value),
+        Err(what) => Err(T::beyond(text).and_then(|value| sound(&value).err()).unwrap_or(what)),
+    }
+}
+
+/// A count as people write it: 1,048,576.
+pub(super) fn grouped(n: u64) -> String {
+    let digits = n.to_string();
+    let groups = digits.as_bytes().rchunks(3).rev().map(|group| String::from_utf8_lossy(group));
+    groups.collect::<Vec<_>>().join(",")
+}
+
 /// "there is no …; did you mean …? (…)".
 pub(super) fn no_such_word(text: &str, words: &[&str]) -> String {
     let hint = nearest(text, words).map(|w| format!("; did you mean \"{w}\"?")).unwrap_or_default();
@@ -57,10 +80,37 @@ macro_rules! numbers {
         }
     )*};
 }
-numbers!(u32, "N", "a whole number (0 or more)"; f32, "X", "a number"; f64, "X", "a number";);
+numbers!(f32, "X", "a number"; f64, "X", "a number";);
+
+impl SettingValue for u32 {
+    const METAVAR: &'static str = "N";
+    fn parse(text: &str) -> Result<Self, String> {
+        let parsed = text.trim().parse();
+        parsed.map_err(|_| match saturated(text) {
+            Some(_) => format!("a whole number from 0 to {} is needed", grouped(u32::MAX.into())),
+            None => "a whole number is needed".into(),
+        })
+    }
+    fn beyond(text: &str) -> Option<Self> {
+        saturated(text)
+    }
+    fn show(&self) -> String {
+        self.to_string()
+    }
+}
+
+/// The nearest number to a whole one of any size.
+fn saturated(text: &str) -> Option<u32> {
+    let text = text.trim();
+    let digits = text.strip_prefix(['-', '+']).unwrap_or(text);
+    if digits.is_empty() || !digits.bytes().all(|b| b.is_ascii_digit()) {
+        return None;
+    }
+    Some(text.parse().unwrap_or(if text.starts_with('-') { 0 } else { u32::MAX }))
+}
 
 impl SettingValue for bool {
-    const METAVAR: &'static str = "NAME";
+    const METAVAR: &'static str = "on|off";
     const CHOICES: &'static [&'static str] = &["on", "off"];
     fn parse(text: &str) -> Result<Self, String> {
         match text.to_lowercase().as_str() {
@@ -102,6 +152,9 @@ impl<T: SettingValue> SettingValue for Option<T> {
     fn parse(text: &str) -> Result<Self, String> {
         if text.is_empty() { Ok(None) } else { T::parse(text).map(Some) }
     }
+    fn beyond(text: &str) -> Option<Self> {
+        T::beyond(text).map(Some)
+    }
     fn show(&self) -> String {
         self.as_ref().map(T::show).unwrap_or_default()
     }
@@ -125,10 +178,17 @@ impl SettingValue for [f64; 3] {
     }
 }
 
+/// What stands between width and height.
+const SIDES: [char; 3] = ['x', '×', ','];
+
 impl SettingValue for [u32; 2] {
     const METAVAR: &'static str = "WxH";
     fn parse(text: &str) -> Result<Self, String> {
-        numbers(text, &['x', '×', ',']).ok_or_else(|| "width x height is needed, as 640x480".into())
+        numbers(text, &SIDES).ok_or_else(|| "width x height is needed, as 640x480".into())
+    }
+    fn beyond(text: &str) -> Option<Self> {
+        let sides: Option<Vec<u32>> = text.split(SIDES).map(saturated).collect();
+        sides?.try_into().ok()
     }
     fn show(&self) -> String {
         format!("{}x{}", self[0], self[1])
@@ -171,6 +231,7 @@ impl SettingValue for Start {
 
 impl SettingValue for Planes {
     const METAVAR: &'static str = "LIST";
+    const CHOICES: &'static [&'static str] = Planes::NAMES;
     fn parse(text: &str) -> Result<Self, String> {
         let mut planes = Planes::NONE;
         for word in text.split(',').map(str::trim).filter(|w| !w.is_empty()) {
@@ -179,7 +240,7 @@ impl SettingValue for Planes {
                 "none" => {}
                 _ => match Planes::by_name(word) {
                     Some(plane) => planes = planes.union(plane),
-                    None => return Err(no_such_word(word, &Planes::names())),
+                    None => return Err(no_such_word(word, Planes::NAMES)),
                 },
             }
         }

@@ -91,7 +91,7 @@ fn receivers(scene: &Scene, put: Put, n: u32, seed: u32) -> Vec<Receiver> {
     };
     let mut hits = vec![RayHit::MISS; n as usize];
     query::closest_hit(scene, &fill, 1, &mut hits, &mut |_| Flow::Continue);
-    hits.iter().filter_map(|h| h.receiver).collect()
+    hits.iter().filter_map(|h| h.met(scene)).map(|met| met.receiver).collect()
 }
 
 /// Directions above the horizon of a receiver, down to grazing.
@@ -196,8 +196,8 @@ fn inside(scene: &Scene, put: Put, n: u32) -> Vec<Receiver> {
     };
     let mut hits = vec![RayHit::MISS; n as usize];
     query::closest_hit(scene, &fill, 1, &mut hits, &mut |_| Flow::Continue);
-    assert!(hits.iter().all(|h| h.receiver.is_some()), "{put:?}: a ray left the room");
+    assert!(hits.iter().all(|h| h.prim != NO_PRIM), "{put:?}: a ray left the room");
     let band = 20.0 * 4.0 * f32::EPSILON * (put.offset as f32 + 1.0);
     let off_crease = |h: &&RayHit| h.uv[0].min(h.uv[1]).min(1.0 - h.uv[0] - h.uv[1]) > band;
-    hits.iter().filter(off_crease).filter_map(|h| h.receiver).collect()
+    hits.iter().filter(off_crease).filter_map(|h| h.met(scene)).map(|met| met.receiver).collect()
 }

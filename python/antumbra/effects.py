@@ -1,0 +1,62 @@
+"""Settings that a person gave and that change nothing, because another setting does not heed them: the one table."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple
+
+from antumbra.settings import table
+
+
+class Rule(NamedTuple):
+    """These `settings` have an effect only where the setting `of` has one of `values`; `unless` they have this one."""
+
+    settings: Sequence[str]
+    of: str
+    values: Sequence[str]
+    unless: str = ""
+
+
+_PATHS = ("path", "path-hemisphere")
+_SEES_LIGHT = ("path", "area", "hemisphere", "surfaces", "mis", "path-hemisphere")
+
+# `output` is no setting of the table: the ending of the picture's file.
+RULES = (
+    Rule(("radius", "falloff"), "estimator", ("ambient-occlusion",)),
+    Rule(("bounces",), "estimator", _PATHS, unless="0"),
+    Rule(("roulette",), "estimator", _PATHS),
+    Rule(("lights", "light_points"), "estimator", ("area", "mis", "path")),
+    Rule(("directions",), "estimator", ("hemisphere", "mis", *_PATHS)),
+    Rule(("distance_test",), "estimator", ("area", "surfaces", "mis", "path")),
+    Rule(("light", "environment"), "estimator", _SEES_LIGHT),
+    Rule(("rotate",), "sampler", ("regular",)),
+    Rule(("pairing",), "sampler", ("owen",)),
+    Rule(("filter",), "viewing", ("filter",)),
+    Rule(("aov", "exr"), "output", (".exr",)),
+    Rule(("exposure", "tone"), "output", (".png",)),
+)
+
+
+def idle(given: Mapping[str, str], output: str = "") -> list[str]:
+    """What to say about settings of `given` (words by name) that change nothing; `output`: the picture's ending."""
+    value = {name: given.get(name, setting.default) for name, setting in table().items()} | {"output": output}
+    said = []
+    for rule in RULES:
+        listed = [name for name in rule.settings if name in given and given[name] != rule.unless]
+        if listed and value[rule.of] and value[rule.of] not in rule.values:
+            said.append(
+                _sentence([f"{name} = {_one_line(given[name])}" for name in listed], rule, value[rule.of])
+            )
+    return said
+
+
+def _sentence(listed: list[str], rule: Rule, value: str) -> str:
+    has = f"{' and '.join(listed)} {'has' if len(listed) == 1 else 'have'} no effect"
+    if rule.of == "output":
+        return f"{has} on a {value} (only on {' or '.join(rule.values)})"
+    *others, last = rule.values
+    return f"{has} with {rule.of} = {value} (only with {' or '.join([', '.join(others), last] if others else [last])})"
+
+
+def _one_line(word: str) -> str:
+    return ", ".join(word.splitlines())
