@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from antumbra._arrays import numbers
+from antumbra._values import shown
 
 
 def one_of(name: str, value: Any, kinds: UnionType) -> str:
@@ -22,20 +23,9 @@ def one_of(name: str, value: Any, kinds: UnionType) -> str:
     home = known[0].__module__
     wanted = f"one of {home} is needed ({', '.join(kind.__name__ for kind in known)})"
     if isinstance(value, type) and issubclass(value, known):
-        shown = f"{home}.{value.__name__}"
-        raise TypeError(f"{name} is the class {shown}: one of its kind is needed, as {shown}(…)")
-    raise TypeError(f"{name} is {_shown(value)}: {wanted}")
-
-
-def _shown(value: Any) -> str:
-    if isinstance(value, type):
-        return f"the class {value.__name__}"
-    if isinstance(value, (str, int, float, bool)) or value is None:
-        return repr(value)
-    kind = type(value)
-    return (
-        f"of type {kind.__name__ if kind.__module__ == 'builtins' else f'{kind.__module__}.{kind.__name__}'}"
-    )
+        kind = f"{home}.{value.__name__}"
+        raise TypeError(f"{name} is the class {kind}: one of its kind is needed, as {kind}(…)")
+    raise TypeError(f"{name} is {shown(value)}: {wanted}")
 
 
 def mesh_of(mesh: Any) -> tuple[Any, Any]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from os import PathLike, fspath
 from typing import Any
 
 Color = float | Sequence[float]
@@ -11,21 +12,47 @@ Vector = Sequence[float]
 Fields = dict[str, list[float]]
 
 
+class Described:
+    """Something that is described by numbers with names; they are checked when it is made."""
+
+    def __post_init__(self) -> None:
+        """Raises ValueError or TypeError for a number that makes no sense."""
+        self.fields()
+
+    def fields(self) -> Fields:
+        """Its numbers by name."""
+        raise NotImplementedError
+
+
 def color(name: str, value: Color) -> list[float]:
     """One number or three, finite and not negative, as three."""
     numbers = _numbers(name, value)
     if len(numbers) not in (1, 3):
-        raise ValueError(f"{name} has {len(numbers)} numbers: one is needed, or three (red, green, blue)")
+        raise ValueError(f"{name} has {_how_many(numbers)}: one is needed, or three (red, green, blue)")
     if any(n < 0 for n in numbers):
         raise ValueError(f"{name} = {value}: light is not negative")
     return numbers * 3 if len(numbers) == 1 else numbers
+
+
+def number(name: str, value: float) -> float:
+    """One finite number."""
+    return _one(name, value)
+
+
+def text(name: str, value: str | PathLike[str]) -> str:
+    """A word or a path."""
+    if isinstance(value, (str, PathLike)):
+        return fspath(value)
+    raise TypeError(
+        f"{name} is {shown(value)}: a {'path' if name in ('path', 'files_from') else 'word'} is needed"
+    )
 
 
 def vector(name: str, value: Vector) -> list[float]:
     """Three finite numbers."""
     numbers = _numbers(name, value)
     if len(numbers) != 3:
-        raise ValueError(f"{name} has {len(numbers)} numbers: three are needed (x, y, z)")
+        raise ValueError(f"{name} has {_how_many(numbers)}: three are needed (x, y, z)")
     return numbers
 
 
@@ -58,11 +85,27 @@ def within(name: str, value: float, low: float, high: float) -> float:
     return number
 
 
+def shown(value: Any) -> str:
+    """What was given, for an error: short values as they are, else their type."""
+    if isinstance(value, type):
+        return f"the class {value.__name__}"
+    if isinstance(value, (str, int, float, bool)) or value is None:
+        return repr(value)
+    kind = type(value)
+    return (
+        f"of type {kind.__name__ if kind.__module__ == 'builtins' else f'{kind.__module__}.{kind.__name__}'}"
+    )
+
+
 def _one(name: str, value: float) -> float:
     numbers = _numbers(name, value)
     if len(numbers) != 1:
-        raise ValueError(f"{name} has {len(numbers)} numbers: one is needed")
+        raise ValueError(f"{name} has {_how_many(numbers)}: one is needed")
     return numbers[0]
+
+
+def _how_many(numbers: list[float]) -> str:
+    return "1 number" if len(numbers) == 1 else f"{len(numbers)} numbers"
 
 
 def _numbers(name: str, value: Any) -> list[float]:
@@ -70,7 +113,7 @@ def _numbers(name: str, value: Any) -> list[float]:
     try:
         numbers = [float(n) for n in flat] if isinstance(flat, (list, tuple)) else [float(flat)]
     except (TypeError, ValueError):
-        raise TypeError(f"{name} is a {type(value).__name__}: a number or numbers are needed") from None
+        raise TypeError(f"{name} is {shown(value)}: a number or numbers are needed") from None
     if not all(math.isfinite(n) for n in numbers):
         raise ValueError(f"{name} = {value}: finite numbers are needed")
     return numbers

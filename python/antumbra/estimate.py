@@ -8,6 +8,8 @@ import numpy as np
 from numpy.lib.mixins import NDArrayOperatorsMixin
 from numpy.typing import NDArray
 
+from antumbra._words import seconds, significant
+
 
 class Estimate(NDArrayOperatorsMixin):
     """Values with their standard error. Acts as the array of its values; arithmetic gives plain arrays.
@@ -100,15 +102,15 @@ class Estimate(NDArrayOperatorsMixin):
 
     def __repr__(self) -> str:
         """What it is, how large, how sure, how long it took."""
-        facts = [f"mean {_short(self.values.mean())}" if self.size else "empty"]
+        facts = [f"mean {significant(self.values.mean())}" if self.size else "empty"]
         worst = np.max(self.standard_error, initial=0.0)
         if self.size:
-            known = np.isfinite(worst)
-            facts.append(f"standard error ≤ {_short(worst)}" if known else "standard error not known")
+            known = f"≤ {significant(worst, 2)}" if np.isfinite(worst) else "not known"
+            facts.append(f"standard error {known}")
         if self.rays:
             facts.append(f"{self.rays:,} rays each")
         if self.seconds:
-            facts.append(f"{self.seconds:.2f} s")
+            facts.append(seconds(self.seconds))
         of = f" of {self.quantity}" if self.quantity else ""
         return f"<Estimate {self.shape}{of}: {', '.join(facts)}>"
 
@@ -117,7 +119,3 @@ class Estimate(NDArrayOperatorsMixin):
         from antumbra.notebook import estimate_html
 
         return estimate_html(repr(self).strip("<>"), self.values)
-
-
-def _short(x: float) -> str:
-    return f"{x:.3g}"

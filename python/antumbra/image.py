@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from antumbra import _core
-from antumbra._words import significant
+from antumbra._words import seconds, significant
 from antumbra.messages import Message
 
 
@@ -129,7 +129,7 @@ class Image:
         if self.passes_done < self.passes:
             parts.append(f"{self.passes_done} of {self.passes} passes")
         if self.seconds:
-            parts.append(f"{self.seconds:.2g} s")
+            parts.append(seconds(self.seconds))
         return " · ".join(parts)
 
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> NDArray[Any]:

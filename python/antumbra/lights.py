@@ -9,7 +9,7 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, cast
 
-from antumbra._values import Color, Fields, Vector, color, direction, length, vector, within
+from antumbra._values import Color, Described, Fields, Vector, color, direction, length, vector, within
 
 if TYPE_CHECKING:
     from os import PathLike
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class Point:
+class Point(Described):
     """A point at `position` (3,) of radiant `intensity` I [W/sr], the same into every direction: E = I cos θ / r²."""
 
     position: Vector
@@ -33,7 +33,7 @@ class Point:
 
 
 @dataclass(frozen=True)
-class Spot:
+class Spot(Described):
     """A point that shines into a cone: full `intensity` [W/sr] up to the half-angle `inner`, none from `outer` on.
 
     `position` and `direction` (3,); `range`: the distance at which it has faded to nothing, or None.
@@ -60,7 +60,7 @@ class Spot:
 
 
 @dataclass(frozen=True)
-class Directional:
+class Directional(Described):
     """Parallel light from infinity: `irradiance` [W/m²] of a surface that faces `to_light` (3,)."""
 
     to_light: Vector
@@ -75,7 +75,7 @@ class Directional:
 
 
 @dataclass(frozen=True)
-class Sun:
+class Sun(Described):
     """A disc at infinity about `to_light` (3,): `half_angle` (the sun of the earth: 0.00465), `radiance`."""
 
     to_light: Vector
@@ -92,7 +92,7 @@ class Sun:
 
 
 @dataclass(frozen=True)
-class Rectangle:
+class Rectangle(Described):
     """corner + s·u + t·v, s and t in [0, 1]; `corner`, `u`, `v` (3,). Shines from the side of u × v."""
 
     corner: Vector
@@ -111,7 +111,7 @@ class Rectangle:
 
 
 @dataclass(frozen=True)
-class Disk:
+class Disk(Described):
     """A disk about `center` (3,) with `radius`; shines from the side of `normal` (3,), of any length."""
 
     center: Vector
@@ -130,7 +130,7 @@ class Disk:
 
 
 @dataclass(frozen=True)
-class Triangle:
+class Triangle(Described):
     """A triangle `a`, `b`, `c` (3,) each; shines from the side of (b−a) × (c−a)."""
 
     a: Vector
@@ -145,7 +145,7 @@ class Triangle:
 
 
 @dataclass(frozen=True)
-class Sphere:
+class Sphere(Described):
     """A sphere about `center` (3,) with `radius`; shines outwards."""
 
     center: Vector

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from antumbra._values import Color, Fields, color, fraction
+from antumbra._values import Color, Described, Fields, color, fraction
 
 
 @dataclass(frozen=True)
-class Diffuse:
+class Diffuse(Described):
     """f_r = ρ/π: the same radiance into every direction (Lambert).
 
     `albedo` ρ in [0, 1], one number or three.
@@ -22,7 +22,7 @@ class Diffuse:
 
 
 @dataclass(frozen=True)
-class Mirror:
+class Mirror(Described):
     """A perfect mirror.
 
     `reflectance` in [0, 1], one number or three: the share of light reflected.
@@ -36,7 +36,7 @@ class Mirror:
 
 
 @dataclass(frozen=True)
-class MetallicRoughness:
+class MetallicRoughness(Described):
     """glTF's metallic-roughness model: GGX microfacets with visible normals over a diffuse base.
 
     `base` colour in [0, 1], one number or three; `metallic` 0 (dielectric) to 1 (metal); perceptual `roughness` 0 to

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+import warnings
 from collections.abc import Callable
 from os import PathLike, fspath
 from typing import Any, NamedTuple, NoReturn, cast
@@ -13,10 +14,10 @@ from numpy.typing import ArrayLike, NDArray
 from antumbra import _core, settings
 from antumbra._arrays import indices, matching, per_row, places, rows, starts
 from antumbra._parts import lat_long, matrix, mesh_of, one_of
-from antumbra._values import Color, Vector, color, vector
+from antumbra._values import Color, Vector, color, number, shown, text, vector
 from antumbra.anatomy import Anatomy
 from antumbra.effects import idle
-from antumbra.errors import RenderStopped
+from antumbra.errors import OptionError, RenderStopped
 from antumbra.estimate import Estimate
 from antumbra.hit import Hit, Receivers
 from antumbra.image import Image
@@ -47,8 +48,8 @@ def load(
     >>> import antumbra as am
     >>> am.load("room.glb").render().save("room.exr")  # doctest: +SKIP
     """
-    folder = None if files_from is None else fspath(files_from)
-    return Scene._of(_core.Scene.load(fspath(path), up_axis, folder))
+    folder = None if files_from is None else text("files_from", files_from)
+    return Scene._of(_core.Scene.load(text("path", path), up_axis, folder))
 
 
 def builtin(name: str, **parameters: float) -> Scene:
@@ -60,7 +61,8 @@ def builtin(name: str, **parameters: float) -> Scene:
     >>> am.builtin("pillars", light_size=0.5)  # doctest: +ELLIPSIS
     <Scene pillars: ...>
     """
-    words = [(key.replace("_", "-"), float(value)) for key, value in parameters.items()]
+    text("name", name)
+    words = [(key.replace("_", "-"), number(key, value)) for key, value in parameters.items()]
     return Scene._of(_core.Scene.builtin(name, words))
 
 
@@ -87,7 +89,7 @@ class Scene(Anatomy):
         Places are kept in single precision, relative to `origin` (3,): one near the scene keeps their digits where
         all coordinates are large. Everything that is given and returned stays in world coordinates.
         """
-        self._core = _core.Scene(name, vector("origin", origin))
+        self._core = _core.Scene(text("name", name), vector("origin", origin))
 
     @classmethod
     def _of(cls, core: _core.Scene) -> Scene:
@@ -138,7 +140,7 @@ class Scene(Anatomy):
         kind = one_of("light", light, Light)
         if isinstance(light, Environment) and isinstance(light.radiance, (str, PathLike)):
             self._core.add_environment_file(name, fspath(light.radiance), light.scale)
-        elif isinstance(light, Environment) and np.ndim(cast("ArrayLike", light.radiance)) == 3:
+        elif isinstance(light, Environment) and np.ndim(cast("ArrayLike", light.radiance)) > 1:
             picture = lat_long(light.radiance)
             self._core.add_environment(name, picture, light.scale)
         else:
@@ -166,6 +168,8 @@ class Scene(Anatomy):
         >>> image.pixels.shape
         (12, 16, 3)
         """
+        if progress is not None and not callable(progress):
+            raise TypeError(f"progress is {shown(progress)}: something to call is needed")
         began = time.perf_counter()
         watch = None if progress is None else lambda *state: progress(Progress(*state))
         words = settings.words(options)
@@ -235,6 +239,8 @@ class Scene(Anatomy):
         `points` (N, 3) with unit `normals` (N, 3), or receivers. Further options as in `render` (`lights`,
         `light_points`, `sampler`, `seed`, `threads`, …).
         """
+        if estimator == "ambient-occlusion":
+            raise OptionError("estimator = ambient-occlusion is no light: ask Scene.ambient_occlusion")
         words = {"shadow_rays": shadow_rays, "estimator": estimator, **options}
         return self._estimate("irradiance", points, normals, words)
 
@@ -252,8 +258,8 @@ class Scene(Anatomy):
 
         `radius`: occluders beyond it do not count; `falloff`: their weight up to it ("none", "linear", "quadratic").
         """
-        words = {"shadow_rays": rays, "radius": radius, "falloff": falloff, **options}
-        return self._estimate("ambient_occlusion", points, normals, words)
+        own = {"shadow_rays": rays, "estimator": "ambient-occlusion", "radius": radius, "falloff": falloff}
+        return self._estimate("ambient_occlusion", points, normals, _with(own, options))
 
     def visible_fraction(
         self,
@@ -269,7 +275,7 @@ class Scene(Anatomy):
         What lies below a point's horizon is not seen. `light`: its name, or its number in the order of building.
         """
         start, facing, _ = places(points, normals)
-        words = settings.words({"shadow_rays": rays, **options})
+        words = settings.words(_with({"shadow_rays": rays, "estimator": "area"}, options))
         began = time.perf_counter()
         values, errors = self._core.visible_fraction(start, facing, str(light), list(words.items()))
         return Estimate(values, errors, "visible fraction", rays, time.perf_counter() - began)
@@ -277,6 +283,8 @@ class Scene(Anatomy):
     def _estimate(self, what: str, points: Any, normals: Any, options: dict[str, Any]) -> Estimate:
         start, facing, _ = places(points, normals)
         words = settings.words(options)
+        for said in idle(words):
+            warnings.warn(said, stacklevel=3)
         began = time.perf_counter()
         values, errors = getattr(self._core, what)(start, facing, list(words.items()))
         seconds = time.perf_counter() - began
@@ -351,7 +359,14 @@ class Scene(Anatomy):
         """`<Scene room.glb: 143,163 triangles, 5 lights, 1 camera>`."""
         found = self._core.counts()
         parts = [f"{n:,} {word}{'' if n == 1 else 's'}" for word, n in found]
-        return f"<Scene {self.name}: {', '.join(parts)}>"
+        return f"<Scene {self.name}: {', '.join(parts) or 'empty'}>"
+
+
+def _with(own: dict[str, Any], options: dict[str, Any]) -> dict[str, Any]:
+    """The settings of a query and what was given beside, which may not replace them."""
+    for name in own.keys() & options.keys():
+        raise OptionError(f"{name} is no option of this query: it has its own")
+    return own | options
 
 
 class LightSamples(NamedTuple):

@@ -10,6 +10,7 @@ from functools import cache
 from typing import Any, NamedTuple
 
 from antumbra import _core
+from antumbra._values import shown
 from antumbra.errors import OptionError
 
 
@@ -67,8 +68,12 @@ def _word(name: str, value: Any) -> str:
     try:
         return repr(float(value)) if not hasattr(value, "__index__") else str(value.__index__())
     except (TypeError, ValueError):
-        kind = type(value).__name__
-        raise TypeError(f"{name} is a {kind}: a number, a word or a sequence of them is needed") from None
+        wanted = _WANTED.get(name, "a number, a word or a sequence of them is needed")
+        raise TypeError(f"{name} is {shown(value)}: {wanted}") from None
+
+
+# What is wanted where it is not just a value.
+_WANTED = {"environment": 'a path, "sky" or "none" is needed (add_light takes an Environment)'}
 
 
 def _degrees(name: str, radians: Any) -> str:
@@ -76,7 +81,7 @@ def _degrees(name: str, radians: Any) -> str:
     try:
         degrees = math.degrees(float(radians))
     except (TypeError, ValueError):
-        raise TypeError(f"{name} is a {type(radians).__name__}: an angle in radians is needed") from None
+        raise TypeError(f"{name} is {shown(radians)}: an angle in radians is needed") from None
     if not 1e-9 <= degrees <= 179.9:
         raise OptionError(
             f"{name} = {radians}: an angle above 0 and below π is needed, in radians (math.radians(40))"
@@ -92,10 +97,11 @@ def _is_sequence(value: Any) -> bool:
 
 
 def as_typed(text: str) -> str:
-    """A sentence about settings with their names as the command line spells them (`shadows = off` → --shadows off)."""
+    """A sentence about settings as the command line spells them: shadows = off → --shadows off, `up` → --up."""
 
     def option(found: re.Match[str]) -> str:
-        name = found["name"]
-        return table()[name].option + " " if name in table() else found[0]
+        name = found["given"] or found["named"]
+        return table()[name].option + (" " if found["given"] else "") if name in table() else found[0]
 
-    return re.sub(r"(?<![-\w])`?(?P<name>[a-z]+(?:_[a-z]+)*)`? = ", option, text)
+    word = "[a-z]+(?:_[a-z]+)*"
+    return re.sub(rf"(?<![-\w])`?(?P<given>{word})`? = |`(?P<named>{word})`", option, text)

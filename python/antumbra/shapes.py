@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from antumbra._values import Fields, Vector, direction, length, vector
+from antumbra._values import Described, Fields, Vector, direction, length, vector
 
 
 @dataclass(frozen=True)
-class Sphere:
+class Sphere(Described):
     """A sphere about `center` (3,) with `radius`."""
 
     center: Vector
@@ -20,7 +20,7 @@ class Sphere:
 
 
 @dataclass(frozen=True)
-class Disk:
+class Disk(Described):
     """A flat disk about `center` (3,) across `normal` (3,) of any length, with `radius`."""
 
     center: Vector
@@ -37,7 +37,7 @@ class Disk:
 
 
 @dataclass(frozen=True)
-class Cylinder:
+class Cylinder(Described):
     """The side of a cylinder, without caps, around the axis from `p0` (3,) to `p1` (3,), with `radius`."""
 
     p0: Vector
@@ -53,7 +53,7 @@ class Cylinder:
 
 
 @dataclass(frozen=True)
-class Rectangle:
+class Rectangle(Described):
     """The parallelogram corner + s·u + t·v, s and t in [0, 1]; `corner`, `u`, `v` (3,). Its front is u × v."""
 
     corner: Vector

@@ -75,7 +75,7 @@ def test_python_values_become_the_words_that_people_type():
 
 
 def test_values_that_are_no_values_are_told():
-    with pytest.raises(TypeError, match="seed is a dict"):
+    with pytest.raises(TypeError, match="seed is of type dict"):
         settings.words({"seed": {}})
     with pytest.raises(am.OptionError, match='did you mean "shadow_rays"'):
         settings.words({"shadow_ray": 1})
@@ -83,5 +83,5 @@ def test_values_that_are_no_values_are_told():
         settings.words({"shadow_rays": 0})
     with pytest.raises(am.OptionError, match=r"fov = 40: an angle above 0 and below π is needed, in radians"):
         settings.words({"fov": 40})
-    with pytest.raises(TypeError, match="fov is a list: an angle in radians is needed"):
+    with pytest.raises(TypeError, match="fov is of type list: an angle in radians is needed"):
         settings.words({"fov": [1]})

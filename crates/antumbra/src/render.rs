@@ -71,7 +71,7 @@ pub fn render(
         messages.push(Message {
             level: Level::Warning,
             place: String::new(),
-            text: "the scene has no light: the picture is black (--environment sky adds one)".into(),
+            text: "the scene has no light: the picture is black (environment = sky adds one)".into(),
         });
     }
     let visibility = scene.visibility(settings.masks == Masks::Opaque);

@@ -239,8 +239,9 @@ choices!(Mistake: None "none", NoCosLight "no-cos-light", NoDistance "no-distanc
 
 fn fault(name: &str, text: &str, what: String) -> SettingError {
     let what = match what.strip_prefix("there is no ") {
-        Some(rest) => format!("there is no {name} {rest}"),
-        None => format!("{name} {text}: {what}"),
+        // "there is no estimator "arae"", but not "there is no lights".
+        Some(rest) if !name.ends_with('s') => format!("there is no {name} {rest}"),
+        _ => format!("{name} = {text}: {what}"),
     };
     SettingError { name: name.into(), what }
 }

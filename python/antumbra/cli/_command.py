@@ -57,6 +57,17 @@ class Verb(click.Command):
         self.examples = examples
         self.has_settings = bool(settings)
 
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        """Refuses words that nothing takes."""
+        ctx.allow_extra_args = True
+        super().parse_args(ctx, args)
+        if ctx.args:
+            listed = " ".join(f'"{word}"' for word in ctx.args)
+            wanted = " ".join(p.metavar or "" for p in self.params if isinstance(p, click.Argument))
+            hint = "A name with spaces needs quotes around it."
+            raise click.UsageError(f"{listed}: nothing takes this beside {wanted}\n{hint}", ctx)
+        return ctx.args
+
     def invoke(self, ctx: click.Context) -> Any:
         """Gathers the settings that were given before the verb runs."""
         if self.has_settings:
@@ -73,14 +84,14 @@ class Verb(click.Command):
         """Usage, one sentence, examples, options in groups."""
         formatter.write(self.page(min(max(shutil.get_terminal_size((80, 24)).columns, 60), 100)))
 
+    def places(self) -> str:
+        """Its arguments, those that may be left out in brackets."""
+        arguments = [p for p in self.params if isinstance(p, click.Argument)]
+        return " ".join(f"{p.metavar}" if p.required else f"[{p.metavar}]" for p in arguments)
+
     def page(self, width: int) -> str:
         """The help at a width."""
-        places = " ".join(
-            p.metavar if p.required else f"[{p.metavar}]"
-            for p in self.params
-            if isinstance(p, click.Argument) and p.metavar
-        )
-        lines = [" ".join(f"Usage: antumbra {self.name} {places} [OPTIONS]".split()), ""]
+        lines = [" ".join(f"Usage: antumbra {self.name} {self.places()} [OPTIONS]".split()), ""]
         lines += [
             *textwrap.wrap(_first_paragraph(self.help), width, initial_indent="  ", subsequent_indent="  "),
             "",

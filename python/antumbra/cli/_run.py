@@ -14,7 +14,7 @@ from antumbra import __version__
 from antumbra.cli import _say
 from antumbra.cli._command import Verb, _first_paragraph
 from antumbra.errors import OptionError, SceneError
-from antumbra.settings import as_typed, table
+from antumbra.settings import as_typed
 
 DONE, OURS, BAD_INPUT, STOPPED = 0, 1, 2, 130
 
@@ -61,6 +61,8 @@ def verb(name: str) -> Verb:
 
 def _dispatch(arguments: list[str]) -> int:
     first = arguments[0] if arguments else "--help"
+    if first == "help":
+        return _dispatch([*arguments[1:2], "--help"])
     if first in ("--help", "-h"):
         print(_overview())
         return DONE
@@ -84,10 +86,12 @@ def _in_order() -> list[Verb]:
 
 def _overview() -> str:
     lines = ["Usage: antumbra VERB … [OPTIONS]", "", "  Direct light and shadow of a scene.", ""]
-    for each in _in_order():
-        places = " ".join(p.metavar or "" for p in each.params if isinstance(p, click.Argument))
-        does = _first_paragraph(each.help).split(":")[0].rstrip(".")
-        lines.append(f"  antumbra {each.name} {places}".ljust(26) + does)
+    calls = {f"  antumbra {each.name} {each.places()}".rstrip(): each for each in _in_order()}
+    column = max(map(len, calls)) + 2
+    lines += [
+        call.ljust(column) + _first_paragraph(each.help).split(":")[0].rstrip(".")
+        for call, each in calls.items()
+    ]
     lines += ["", "  antumbra VERB --help says more about each; antumbra --version, which one this is."]
     return "\n".join(lines)
 
@@ -104,16 +108,15 @@ def _usage(problem: click.UsageError) -> tuple[str, str]:
         return f"{' '.join([*own[:1], problem.param.metavar or ''])} is missing", hint
     if isinstance(problem, click.BadOptionUsage):
         return f"{problem.option_name} needs a value", hint
-    return problem.format_message(), ""
+    what, _, advice = problem.format_message().partition("\n")
+    return what, advice
 
 
 def _told(problem: SceneError | OptionError) -> tuple[str, str]:
     if isinstance(problem, SceneError):
-        place = ": ".join(part for part in (problem.file, problem.place, problem.what) if part)
-        return place, problem.hint
-    text = as_typed(str(problem))
-    name = text.split(" ", 1)[0].rstrip(":")
-    return (text.replace(name, table()[name].option, 1) if name in table() else text), ""
+        line = ": ".join(part for part in (problem.file, problem.place, as_typed(problem.what)) if part)
+        return line, as_typed(problem.hint)
+    return as_typed(str(problem)), ""
 
 
 def _ours(problem: BaseException, verbose: bool) -> int:

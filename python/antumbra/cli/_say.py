@@ -12,6 +12,7 @@ from antumbra._words import seconds as seconds
 from antumbra._words import significant as significant
 from antumbra._words import size as size
 from antumbra._words import some as some
+from antumbra.settings import as_typed
 
 INDENT = "       "
 
@@ -19,11 +20,6 @@ INDENT = "       "
 def error(what: str, hint: str = "") -> None:
     """`error: what`, the hint indented under it."""
     _line("error", what, hint)
-
-
-def note(what: str) -> None:
-    """`note: what`."""
-    _line("note", what)
 
 
 def _line(level: str, what: str, hint: str = "") -> None:
@@ -41,7 +37,7 @@ def messages(file: str, said: Iterable[tuple[str, str, str]]) -> None:
     for (level, text), n in counts.items():
         place = first[level, text]
         more = f" (and {n - 1:,} more like it)" if n > 1 else ""
-        _line(level, ": ".join(part for part in (file, place, text) if part) + more)
+        _line(level, ": ".join(part for part in (file, place, as_typed(text)) if part) + more)
 
 
 def nearest_hint(text: str, known: Sequence[str], form: str = '"{}"') -> str:

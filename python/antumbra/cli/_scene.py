@@ -45,8 +45,12 @@ def open_scene(
 def tell(scene: _core.Scene, quiet: bool) -> None:
     """Its notes and warnings, on standard error."""
     if not quiet:
-        file = scene.name if "." in scene.name else ""
-        _say.messages(file, scene.messages())
+        _say.messages(file_of(scene), scene.messages())
+
+
+def file_of(scene: _core.Scene) -> str:
+    """The file that messages speak of; nothing for a built-in scene."""
+    return scene.name if "." in scene.name else ""
 
 
 def stem(scene: str) -> str:

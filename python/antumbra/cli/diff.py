@@ -29,7 +29,7 @@ def run(a: str, b: str, output: str | None, json: bool, quiet: bool, verbose: bo
         raise click.UsageError(f'"{output}": the map is a .png')
     first, second, part = _same_part(a, b)
     if part and not quiet:
-        _say.note(f"compared where both are: {part}")
+        _say.messages("", [("note", "", f"compared where both are: {part}")])
     shown = any(Path(name).suffix.lower() == ".png" for name in (a, b))
     found, error = measures(first, second, shown)
     if output is not None:

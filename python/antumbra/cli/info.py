@@ -185,7 +185,7 @@ def _wrapped(name: str, text: str) -> list[str]:
     lines = textwrap.wrap(
         joined,
         width,
-        initial_indent=name.ljust(_COLUMN),
+        initial_indent=name.ljust(_COLUMN - 1) + " ",
         subsequent_indent=" " * _COLUMN,
         break_on_hyphens=False,
     )

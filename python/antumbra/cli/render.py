@@ -13,7 +13,6 @@ from antumbra.cli import _say, _scene
 from antumbra.cli._command import GROUPS, Verb, output_option
 from antumbra.cli._progress import Bar
 from antumbra.errors import RenderStopped
-from antumbra.settings import as_typed
 
 if TYPE_CHECKING:
     from antumbra.image import Image
@@ -41,8 +40,7 @@ def run(
     _scene.tell(opened, quiet)
     told = effects.idle(settings, path.suffix.lower())
     if not quiet:
-        for text in told:
-            _say.note(as_typed(text))
+        _say.messages("", [("note", "", text) for text in told])
     head = f"  {opened.name} · {_facts(opened)} · {_plan(opened, settings)}"
     watched = sys.stderr.isatty()
     if watched and not quiet:
@@ -54,7 +52,7 @@ def run(
         return _stopped(stopped.image, path)
     image.save(path)
     if not quiet:
-        _say.messages("", [said for said in image.messages if said.text not in told])
+        _say.messages(_scene.file_of(opened), [said for said in image.messages if said.text not in told])
         if not watched:
             print(head, file=sys.stderr)
     print(_ending(image, path))

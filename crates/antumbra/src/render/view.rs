@@ -17,7 +17,7 @@ pub(super) fn camera(scene: &Scene, s: &Settings, messages: &mut Vec<Message>) -
         (None, Some(camera)) => camera.clone(),
         (None, None) => {
             if s.eye.is_none() {
-                note("no camera: made one that sees everything (--eye, --look-at to choose)".into());
+                note("no camera: made one that sees everything (`eye`, `look_at` to choose)".into());
             }
             all_seeing(scene)?
         }
@@ -32,14 +32,14 @@ pub(super) fn camera(scene: &Scene, s: &Settings, messages: &mut Vec<Message>) -
     if let Some(up) = camera.other_up() {
         let (was, x, y, z) = (camera.up, up.x, up.y, up.z);
         note(format!(
-            "the camera looks straight along its up direction {}, {}, {}: {x}, {y}, {z} is up in the picture (--up \
-             to choose)",
+            "the camera looks straight along its up direction {}, {}, {}: {x}, {y}, {z} is up in the picture (`up` to \
+             choose)",
             was.x, was.y, was.z
         ));
         camera.up = up;
     }
     match camera.fault() {
-        Some(what) => Err(SceneError::new("camera", what, "Choose other values of --eye, --look-at, --up.")),
+        Some(what) => Err(SceneError::new("camera", what, "Choose other values of `eye`, `look_at`, `up`.")),
         None => Ok(camera),
     }
 }
@@ -73,7 +73,7 @@ pub(super) fn view(camera: &Camera, s: &Settings) -> Result<View, SceneError> {
     let fits = |from: u32, length: u32, all: u32| u64::from(from) + u64::from(length) <= u64::from(all);
     if !fits(crop[0], crop[2], size[0]) || !fits(crop[1], crop[3], size[1]) {
         let what = format!(
-            "crop {},{},{},{} does not lie in {} x {} pixels",
+            "crop = {},{},{},{} does not lie in {} x {} pixels",
             crop[0], crop[1], crop[2], crop[3], size[0], size[1]
         );
         return Err(SceneError::new("", what, ""));

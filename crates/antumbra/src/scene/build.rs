@@ -185,7 +185,7 @@ impl SceneBuilder {
             self.say(
                 Level::Note,
                 "",
-                "no light in the file: lit by the default sky (--environment to choose)",
+                "no light in the file: lit by the default sky (`environment` to choose)",
             );
         }
     }

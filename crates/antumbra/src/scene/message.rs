@@ -56,8 +56,13 @@ impl SceneError {
     }
 }
 
-/// The known word nearest to `text`, if one is near (edit distance at most a third of its length, and at most 3).
+/// The known word nearest to `text`, if one is near: the only one that begins so, or the one at the least edit distance,
+/// which is at most a third of its length and at most 3.
 pub fn nearest<'a>(text: &str, known: &[&'a str]) -> Option<&'a str> {
+    let mut longer = known.iter().filter(|word| text.len() > 1 && word.starts_with(text));
+    if let (Some(only), None) = (longer.next(), longer.next()) {
+        return Some(only);
+    }
     let distance = |word: &str| {
         let (a, b): (Vec<char>, Vec<char>) = (text.to_lowercase().chars().collect(), word.chars().collect());
         let mut row: Vec<usize> = (0..=b.len()).collect();
@@ -83,4 +88,28 @@ pub fn nearest<'a>(text: &str, known: &[&'a str]) -> Option<&'a str> {
         .filter(|(d, word)| *d <= 3.min(1 + word.len() / 3))
         .min_by_key(|(d, _)| *d)
         .map(|(_, word)| word)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_nearest_word_is_the_one_that_was_meant() {
+        let known = ["none", "no-cos-light", "no-distance", "no-count"];
+        assert_eq!(nearest("no-cos", &known), Some("no-cos-light"));
+        assert_eq!(nearest("no-cout", &known), Some("no-count"));
+        assert_eq!(nearest("nno", &known), Some("none"));
+        assert_eq!(nearest("wrong-measure", &known), None);
+    }
+
+    #[test]
+    fn what_there_is_is_said_by_name() {
+        let said = |known: &[&str]| SceneError::unknown("light", "Lmap", known);
+        assert_eq!(said(&["Lamp", "light 2"]).what, "there is no light \"Lmap\"; did you mean \"Lamp\"?");
+        assert_eq!(said(&["Lamp", "light 2"]).hint, "Its lights are \"Lamp\", \"light 2\".");
+        assert_eq!(said(&["sun"]).hint, "Its only light is \"sun\".");
+        assert_eq!(said(&[]).hint, "The scene has no light.");
+        assert!(said(&["x"; 50]).hint.ends_with(" and 30 more."));
+    }
 }

@@ -55,12 +55,9 @@ impl Settings {
     /// Refuses settings that contradict each other.
     pub fn check(&self) -> Result<(), SceneError> {
         if self.falloff != Falloff::None && self.radius.is_infinite() {
-            let what = format!("falloff {} needs a radius", self.falloff.show());
-            return Err(SceneError::new(
-                "",
-                what,
-                "give --radius R, the distance at which an occluder stops counting",
-            ));
+            let what = format!("falloff = {} needs a radius", self.falloff.show());
+            let hint = "Give `radius`, the distance at which an occluder stops counting.";
+            return Err(SceneError::new("", what, hint));
         }
         Ok(())
     }
@@ -82,7 +79,7 @@ impl Settings {
         };
         (!kinds.contains(&self.estimator)).then(|| {
             let (mistake, estimator) = (self.mistake.show(), self.estimator.show());
-            format!("mistake {mistake} is none with estimator {estimator}: the picture is right")
+            format!("mistake = {mistake} is none with estimator = {estimator}: the picture is right")
         })
     }
 
@@ -90,7 +87,8 @@ impl Settings {
     fn hole(&self) -> Option<String> {
         let lost = self.light_points == LightPoints::Hole && self.estimator == EstimatorKind::Area;
         lost.then(|| {
-            "light-points hole never draws a quarter of a flat light: its light is missing, on purpose".into()
+            "light_points = hole never draws a quarter of a flat light: its light is missing, on purpose"
+                .into()
         })
     }
 

@@ -29,7 +29,7 @@ impl Reader<'_> {
         let light = PunctualLight::deserialize(value)
             .map_err(|e| ReadError::new(format!("{NAME} light {index}"), e.to_string()))?;
         let name = if node.name.is_empty() { &light.name } else { &node.name };
-        let place = format!("light {}", named(index, name));
+        let place = format!("{NAME} light {}", named(index, name));
         if light.kind == "point" && light.range.is_some() {
             self.said.warn(&place, "the range of point lights is not read: it shines on beyond");
         }
