@@ -12,7 +12,7 @@ import pytest
 
 import antumbra as am
 from antumbra import _core
-from conftest import FACES, SQUARE
+from common import FACES, SQUARE
 
 
 def test_a_point_light_over_a_floor_is_its_formula(floor):

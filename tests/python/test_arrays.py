@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import antumbra as am
-from conftest import FACES, SQUARE
+from common import FACES, SQUARE
 
 RNG = np.random.default_rng(20)
 ORIGINS = RNG.uniform([-1, 0.5, -1], [1, 1.5, 1], (1000, 3))

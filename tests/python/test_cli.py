@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import antumbra as am
-from conftest import command
+from common import command
 
 SMALL = ["--size", "24x16", "--viewing-rays", "4"]
 ENDING = re.compile(

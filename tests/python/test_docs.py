@@ -14,7 +14,7 @@ import pytest
 
 import antumbra
 from antumbra import _core
-from conftest import ROOT
+from common import ROOT
 
 MODULES = [
     m.name for m in pkgutil.iter_modules(antumbra.__path__, "antumbra.") if not m.name.endswith("__main__")

@@ -10,7 +10,7 @@ import time
 
 import pytest
 
-from conftest import data_folder
+from common import data_folder
 
 FOLDER = data_folder()
 MANIFEST = (
