@@ -42,8 +42,16 @@ def square_light(size: float, height: float, radiance: float = 1.0) -> am.lights
     return am.lights.Rectangle((-half, height, -half), (size, 0.0, 0.0), (0.0, 0.0, size), radiance)
 
 
-def irradiance_below(size: float, height: float) -> float:
-    """E / L_e straight below the middle of a square light: four times the form of a corner (element to rectangle)."""
-    a = size / (2 * height)
-    root = math.hypot(1.0, a)
-    return 4 * a / root * math.atan(a / root)
+def irradiance_under(size: float, height: float, x: float = 0.0, z: float = 0.0) -> float:
+    """E / L_e at (x, 0, z) under a square light: element to rectangle, the signed sum of its four corners."""
+    half = size / 2
+    total = 0.0
+    for side, other in ((1, 1), (-1, 1), (1, -1), (-1, -1)):
+        total += side * other * _corner((side * half - x) / height, (other * half - z) / height)
+    return total
+
+
+def _corner(a: float, b: float) -> float:
+    """E / L_e of a rectangle a × b at height 1 with a corner over the receiver."""
+    p, q = math.hypot(1.0, a), math.hypot(1.0, b)
+    return 0.5 * (a / p * math.atan(b / p) + b / q * math.atan(a / q))

@@ -13,7 +13,7 @@ from antumbra.lecture.measures.ratio import excess, ratio
 from antumbra.lecture.measures.replicates import mean_of
 from antumbra.lecture.quantity import Quantity
 from antumbra.lecture.run import Run
-from antumbra.lecture.square_lights import BOARDS, LIGHT_HEIGHT, boards_under_square, irradiance_below
+from antumbra.lecture.square_lights import BOARDS, LIGHT_HEIGHT, boards_under_square, irradiance_under
 from antumbra.lecture.stages import Drawing, Frame, Part, Plot, Sketch, Strip, Table
 from antumbra.lecture.stages.drawing import INK, LIGHT, LIT, PENUMBRA, UMBRA
 from antumbra.study.plot import Curve, error_curves
@@ -162,7 +162,7 @@ FIGURE = Figure(
               measured="{share} of it, over 18 widths"),
         Claim("Seven times the d₂/d₁, seven times as wide.", "boards", near=7.0, within=0.05,
               measured="{boards} times, 1 against 1/7"),
-        Claim("Without boards the floor below keeps its light but for 7.7 %.", "below", near=irradiance_below(1.0, 2.0) * 4 - 1, within=0.003,
+        Claim("Without boards the floor below keeps its light but for 7.7 %.", "below", near=irradiance_under(1.0, 2.0) * 4 - 1, within=0.003,
               measured="{below:1} from the point to s = 1; the closed form says −7.67 %"),
     ],
 )  # fmt: skip

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,7 +25,7 @@ from antumbra.study.statistics import Line
 RATIOS = [0.1, 0.2, 0.3, 0.4, 0.6, 0.8, 1.0, 1.2, 1.3, 1.4, 1.5, 1.58]
 CROSSING = RATIOS[-4:]
 FORMS = {"hemisphere": "directions", "surfaces": "all surfaces", "area": "the light"}
-ONE = {"light_points": "area", "directions": "cosine"}
+ONE: dict[str, Any] = {"light_points": "area", "directions": "cosine"}
 RAYS = Pick(32, 128)
 LOOK = {
     **ONE, "sampler": "random", "viewing": "centre", "viewing_rays": RAYS, "shadow_rays": 1, "size": Pick((72, 48), (240, 160)),
