@@ -62,8 +62,8 @@ def _stage(run: Run, measured: Mapping[str, Quantity]) -> list[Strip]:
             Frame(f"{radius:g}", f"R = {radius:g}: off by {span}", pictures, short=f"R = {radius:g}")
         )
     label = "Radius R of the light, 2 above the floor; the occluder, of radius 0.2, hangs halfway"
-    return [Strip("R", label, frames, 4, ("V, share seen", "E, unshadowed", "V · E", "true", "true / (V · E) − 1"),
-        note="The last map is white where both agree, orange where there is more light than V · E, blue where less; full colour at 15 %.")]  # fmt: skip
+    return [Strip("R", label, frames, 4, ("V, seen", "E, unshaded", "V · E", "true", "true / V·E"),
+        note="The last map, true light over V · E: white where both agree, orange where there is more light, blue where less; full colour at 15 %.")]  # fmt: skip
 
 
 FIGURE = Figure(
