@@ -64,6 +64,16 @@ class Bodies(NamedTuple):
         share = self.moon / (self.sun - self.moon)
         return (self.unit * share + self.earth) / (1 + share)
 
+    def umbra(self, distance: float) -> float:
+        """Radius of the umbra on the ground [km], the moon at `distance`; negative: less that of the antumbra."""
+        rise = math.tan(math.asin((self.sun - self.moon) / (self.unit - distance)))
+        return (self.length(distance) - (distance - self.earth)) * rise
+
+    def penumbra(self, distance: float) -> float:
+        """Outer radius of the penumbra [km], in the plane through the ground below the moon."""
+        spread = math.asin((self.sun + self.moon) / (self.unit - distance))
+        return self.moon / math.cos(spread) + (distance - self.earth) * math.tan(spread)
+
     def on_ground(self, beside: float) -> NDArray[np.float64]:
         """The point of the earth's surface `beside` km from the axis, towards y."""
         return np.array([math.sqrt(self.earth**2 - beside**2), beside, 0.0])

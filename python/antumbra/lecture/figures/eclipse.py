@@ -17,19 +17,41 @@ from antumbra.lecture.stages import Frame, Part, Strip
 from antumbra.lecture.stages.regions import regions_key
 
 SKY = Bodies(sun=695_700.0, moon=1_737.4, earth=6_371.0, unit=149_597_870.7)
-DISTANCES = [356_500, 361_000, 365_500, 370_000, 374_500, 379_000, 379_900, 384_400, 389_000, 393_500, 398_000, 402_500, 406_700]
-# Half the width of the inset on the ground [km], and of the view to the sky [rad].
-GROUND, FIELD, EYE = 160.0, 0.0062, 20_000.0
-LOOK = {"estimator": "area", "size": Pick((120, 120), (320, 320)), "viewing_rays": Pick(4, 16), "shadow_rays": Pick(4, 16)}
-MAP = {"aov": "regions", "viewing": "centre", "viewing_rays": 1, "region_points": Pick(32, 256)}
-INSET = {"eye": (EYE, 0.0, 0.0), "look_at": (0.0, 0.0, 0.0), "fov": 2 * np.arctan(GROUND / (EYE - SKY.earth))}
-UP_THERE = {"eye": (SKY.earth + 0.002, 0.0, 0.0), "look_at": (1e6, 0.0, 0.0), "fov": 2 * FIELD, "viewing_rays": Pick(4, 16)}
+TURNS = round(SKY.turns)
+DISTANCES = [
+    356_500,
+    361_000,
+    365_500,
+    370_000,
+    374_000,
+    377_500,
+    TURNS,
+    382_500,
+    386_000,
+    390_000,
+    395_000,
+    401_000,
+    406_700,
+]
+FAR, GROUND, EYE = DISTANCES[-1], 160.0, 20_000.0
+LOOK = {
+    "estimator": "area",
+    "viewing_rays": Pick(4, 16),
+    "shadow_rays": Pick(9, 16),
+    "size": Pick((120, 120), (320, 320)),
+}
+ONE = {"viewing": "centre", "viewing_rays": 1, "shadow_rays": 1}
+VIEWS = {
+    "space": {},
+    "ground": ONE | {"aov": "regions", "region_points": Pick(64, 128), "eye": (EYE, 0.0, 0.0), "look_at": (0.0, 0.0, 0.0),
+                     "fov": 2 * np.arctan(GROUND / (EYE - SKY.earth))},
+    "sky": ONE | {"aov": "emission,albedo", "eye": (SKY.earth + 0.002, 0.0, 0.0), "look_at": (1e6, 0.0, 0.0), "fov": 0.0124},
+}  # fmt: skip
 
 
-def _variants(distance: int) -> list[Variant]:
+def _moon_at(distance: int) -> list[Variant]:
     scene = builtin("eclipse", distance=float(distance))
-    looks = {"earth": {}, "ground": MAP | INSET, "sky": UP_THERE}
-    return [Variant(f"{name}-{distance}", scene, LOOK | look) for name, look in looks.items()]
+    return [Variant(f"{name}-{distance}", scene, LOOK | view) for name, view in VIEWS.items()]
 
 
 def _radii(run: Run, distance: int) -> Radii:
@@ -37,18 +59,90 @@ def _radii(run: Run, distance: int) -> Radii:
     return radii(regions, 2 * GROUND / len(regions))
 
 
+def _hidden(run: Run, beside: float) -> Quantity:
+    scene, at = run.scene(builtin("eclipse", distance=float(FAR))), SKY.on_ground(beside)
+    seen = fraction_at(scene, at, run.pick(Pick(2**18, 2**22)), run.seeded(1), at / SKY.earth)
+    return Quantity(1 - seen.value, seen.error, "%", seen.note)
+
+
 def _measure(run: Run) -> Mapping[str, Quantity]:
-    signed = {d: _radii(run, d).signed for d in DISTANCES}
-    seen = [d for d in DISTANCES if signed[d]]
-    far = DISTANCES[-1]
-    rays, place = run.pick(Pick(2**18, 2**22)), SKY.on_ground(1500.0)
-    covered = {
-        name: fraction_at(run.scene(builtin("eclipse", distance=float(far))), at, rays, run.seeded(1), at / SKY.earth)
-        for name, at in (("centre", SKY.on_ground(0.0)), ("beside", place))
-    }
-    hidden = {n: Quantity(1 - q.value, q.error, "%") for n, q in covered.items()}
-    return hidden | {
-        "turns": crossing(seen, [signed[d] for d in seen], "km", f"fit over {len(seen)} frames"),
-        "says": Quantity(SKY.turns, 0.0, "km"),
-        "lens": Quantity(SKY.covered(far, 0.0), 0.0, "%"), "lens_beside": Quantity(SKY.covered(far, 1500.0), 0.0, "%"),
+    signed = {d: s for d in DISTANCES if (s := _radii(run, d).signed)}
+    turns = crossing(list(signed), list(signed.values()), "km", f"fit over {len(signed)} frames")
+    # In single precision the ends of segments stand 2⁻²¹ of the sun's distance above its surface, 71 km.
+    rim = SKY.length(TURNS) * 2**-21 * SKY.unit / (SKY.sun - SKY.moon)
+    turns = Quantity(
+        turns.value, turns.error + rim, "km", turns.note + ", and the rim of the sun in single precision"
+    )
+    return {
+        "turns": turns, "length": Quantity(turns.value - SKY.earth, turns.error, "km", "from the moon's centre"),
+        "hidden": _hidden(run, 0.0), "beside": _hidden(run, 1500.0),
     }  # fmt: skip
+
+
+def _says(at: Radii, distance: int) -> str:
+    if distance == TURNS:
+        return "the umbra just touches the ground"
+    if distance < TURNS:
+        return f"total, umbra {2 * at.umbra:.0f} km wide"
+    return f"annular, antumbra {2 * at.antumbra:.0f} km wide"
+
+
+def _stage(run: Run, measured: Mapping[str, Quantity]) -> list[Part]:
+    frames, white = [], 1.7 * run.white(f"space-{FAR}")
+    for d in DISTANCES:
+        at, sky = _radii(run, d), run.image(f"sky-{d}").aov
+        says, covered, true = _says(at, d), SKY.covered(d, 0.0), SKY.umbra(d)
+        bodies = np.where(sky["emission"].max(2) > 0, 2, np.where(sky["albedo"].max(2) > 0, 1, 0))
+        pictures = [
+            run.picture(f"space-{d}", f"The earth with the moon's shadow, the moon at {d:,} km.", white=white, colour=True, tones=64),
+            run.classes(run.aov(f"ground-{d}", "regions").astype(np.uint8), f"The ground at the axis of the shadow: {says}.", name=f"ground-{d}"),
+            run.classes(bodies, f"The sun from the ground: {covered:.1%} of it is covered.", name=f"sky-{d}", colours=("#141a2e", "#555c69", "#f2b705")),
+        ]  # fmt: skip
+        facts = [
+            f"radius {at.umbra:.1f} / {true:.1f} km" if true > 1 else "none here",
+            f"out to {SKY.penumbra(d):,.0f} km",
+            f"radius {at.antumbra:.1f} / {-true:.1f} km" if true < -1 else "none here",
+        ]
+        frames.append(
+            Frame(
+                f"{d}",
+                f"{d:,} km: {says}",
+                pictures,
+                f"{d:,} km",
+                f", {covered:.1%} of the sun covered",
+                facts=facts,
+            )
+        )
+    labels = (
+        "The earth from space",
+        f"The ground, {2 * GROUND:.0f} km across",
+        "The sun from the ground, 0.7° across",
+    )
+    strip = Strip("moon", "Distance of the moon, from centre to centre", frames, 3, labels)
+    note = "Radii on the ground, measured in the map / from similar triangles. In the view to the sky the moon is grey, where it is black."
+    return [strip, regions_key("moon", (0, 1, 2, -1), note)]
+
+
+FIGURE = Figure(
+    number=3, chapter=1, title="Total or annular", seconds=Pick(6, 100),
+    question=Question(
+        "The moon's distance goes from 356,500 to 406,700 km. From which distance on does a ring of the sun stay visible?",
+        ("370,000 km", "380,000 km", "400,000 km"), 1,
+    ),
+    variants=[variant for distance in DISTANCES for variant in _moon_at(distance)],
+    measure=_measure, stage=_stage, exr=[f"space-{TURNS}"],
+    answer=Number("turns", "There the tip of the umbra leaves the ground. Nearer, the eclipse is total on a path of some hundred "
+        "kilometres; farther, it is annular."),
+    equation=Equation(
+        [(r"\ell = \frac{\mark{D} \, r}{R - r}", "ℓ = D r / (R − r)")],
+        "Marked: D, from the sun to the moon. ℓ is the length of the umbra behind the moon, r and R the radii of moon and sun.",
+    ),
+    claims=[
+        Claim("The umbra is 373,600 km long, as similar triangles say.", "length", near=SKY.length(TURNS), within=600.0, main=True,
+              measured="measured {length} (95 %), D·r/(R − r) " + f"= {SKY.length(TURNS):,.0f} km"),
+        Claim("At 406,700 km the moon covers 87.1 % of the sun.", "hidden", near=SKY.covered(FAR, 0.0), within=0.002,
+              measured="measured {hidden}, " + f"lens formula {SKY.covered(FAR, 0.0):.2%}"),
+        Claim("1,500 km beside the axis it covers 45.4 %.", "beside", near=SKY.covered(FAR, 1500.0), within=0.004,
+              measured="measured {beside}, " + f"lens formula {SKY.covered(FAR, 1500.0):.2%}"),
+    ],
+)  # fmt: skip

@@ -7,21 +7,20 @@ from collections.abc import Mapping
 import numpy as np
 
 from antumbra.lecture.chapters import DIRECT
-from antumbra.lecture.figure import Claim, Equation, Figure, Number, Pick, Question, Variant
 from antumbra.lecture.disks import from_above, receiver_behind
+from antumbra.lecture.figure import Claim, Equation, Figure, Number, Pick, Question, Variant
 from antumbra.lecture.geometry import Disks
 from antumbra.lecture.measures.regions import Radii, crossing, radii
 from antumbra.lecture.quantity import Quantity
 from antumbra.lecture.run import Run
-
 from antumbra.lecture.stages import Frame, Part, Strip
 from antumbra.lecture.stages.regions import regions_key, side_view
 
 DISKS, HALF = Disks(R=1.0, r=0.5, a=4.0), 4.0
 DISTANCES = [0.5 * step for step in range(1, 17)]
 LOOK = {
-    "estimator": "area", "viewing": "centre", "viewing_rays": 1, "shadow_rays": Pick(36, 256), "sampler": "stratified",
-    "aov": "regions,unshadowed-direct", "region_points": Pick(32, 256), "size": Pick((120, 120), (320, 320)),
+    "estimator": "area", "viewing": "centre", "viewing_rays": 1, "shadow_rays": Pick(36, 144), "sampler": "stratified",
+    "aov": "regions,unshadowed-direct", "region_points": Pick(32, 128), "size": Pick((120, 120), (320, 320)),
 }  # fmt: skip
 
 
@@ -81,7 +80,7 @@ def _stage(run: Run, measured: Mapping[str, Quantity]) -> list[Part]:
 
 
 FIGURE = Figure(
-    number=2, chapter=1, title="Where the umbra ends", seconds=Pick(7, 60),
+    number=2, chapter=1, title="Where the umbra ends", seconds=Pick(5, 90),
     question=Question(
         "Move the receiver away from the occluder. How far behind it does the dark core vanish, and what is there afterwards?",
         ("g = 2, then only penumbra", "g = 4, then a ring of light", "never: it only shrinks"), 1,

@@ -14,7 +14,7 @@ from antumbra.lecture.stages import Frame, Strip
 
 SCALES = [round(1 - 0.04 * step, 2) for step in range(12)]
 LOOK = {
-    "estimator": "area", "viewing_rays": Pick(4, 64), "shadow_rays": Pick(1, 4), "size": Pick((240, 168), (720, 504)),
+    "estimator": "area", "viewing_rays": Pick(4, 16), "size": Pick((240, 168), (840, 588)),
     "eye": EYE, "look_at": (0.35, 0.3, 0.2), "fov": 0.6,
 }  # fmt: skip
 
@@ -53,7 +53,7 @@ FIGURE = Figure(
         "Which of the two pictures tells?",
         ("both", "only the one with shadows", "neither"), 1,
     ),
-    variants=[Variant(f"{v}-{s}", slid_ball(s), LOOK | {"shadows": v}, Pick(2, 4)) for s in SCALES for v in ("off", "on")],
+    variants=[Variant(f"{v}-{s}", slid_ball(s), LOOK | {"shadows": v}, 2) for s in SCALES for v in ("off", "on")],
     measure=_measure, stage=_stage, exr=["off-1.0", f"on-{SCALES[-1]}"],
     answer=Number("on", "With shadows, so many pixels change when the ball comes to about half of its distance. Without "
         "them it is {off}. Where a thing is we read from where its shadow is."),

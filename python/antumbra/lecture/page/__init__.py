@@ -131,5 +131,8 @@ def _phases(chapters: Sequence[Mapping[str, Any]]) -> list[Any]:
             for part in figure["stage"] if figure["name"] == "regions" else ():
                 if part["kind"] == "strip":
                     pictures = [frame["pictures"][-1] for frame in part["frames"]]
-                    return pictures[:: max(1, len(pictures) // 10)][:10]
+                    count = min(10, len(pictures))
+                    return [
+                        pictures[round(i * (len(pictures) - 1) / max(1, count - 1))] for i in range(count)
+                    ]
     return []
