@@ -18,6 +18,10 @@ SUM_OF_N = (
     r"L_o \approx \frac{f_r L_e}{\mark{N}} \sum_{j=1}^{\mark{N}} \frac{V(p, p'_j) \, \cos\theta_j \, \cos\theta'_j}{\text{pdf}(p'_j) \, r_j^2}",
     "L_o ≈ (f_r L_e / N) · sum over N shadow rays of V cos θ cos θ′ / (pdf r²)",
 )
+SUM_OF_PDF = (
+    r"L_o \approx \frac{f_r L_e}{N} \sum_{j=1}^{N} \frac{V(p, p'_j) \, \cos\theta_j \, \cos\theta'_j}{\mark{\text{pdf}(p'_j)} \, r_j^2}",
+    "L_o ≈ (f_r L_e / N) · sum over N shadow rays of V cos θ cos θ′ / (pdf r²)",
+)
 HEMISPHERE = (
     r"L_o(p) = \int_{\Omega} f_r \, \mark{L_i(\omega) \, \cos\theta \, \text{d}\omega}, \qquad "
     r"\text{d}\omega = \frac{\cos\theta'}{r^2} \, \text{d}A",

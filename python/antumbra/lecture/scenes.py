@@ -66,26 +66,43 @@ def disk_over_floor(light: float, occluder: float = 0.2) -> SceneOf:
     return build
 
 
+def _pillars_light(size: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Corner and sides of the light of the built-in `pillars`: it faces the middle of the floor."""
+    center = np.array([-3.3, 6.2, -3.6])
+    toward = np.array([0.0, 0.5, 0.0]) - center
+    u = np.cross(toward / np.linalg.norm(toward), [0.0, 1.0, 0.0])
+    u *= size / np.linalg.norm(u)
+    v = np.cross(toward / np.linalg.norm(toward), u)
+    return center - (u + v) / 2, u, v
+
+
+PILLARS_LIGHT = _pillars_light(2.0)
+
+
+def _pillars_and(corner: np.ndarray, u: np.ndarray, v: np.ndarray, name: str) -> am.Scene:
+    """The pillars under their light of edge 2, and another rectangle of the same radiance."""
+    scene = am.builtin("pillars", light_size=2.0)
+    radiance = 165.0 / 4.0 * np.array([1.0, 0.93, 0.82])
+    sides = corner.tolist(), u.tolist(), v.tolist()
+    scene.add_light(am.lights.Rectangle(*sides, radiance=tuple(radiance)), name=name)
+    return scene
+
+
 @cache
-def two_windows(size: float = 2.0, apart: float = 3.0) -> SceneOf:
-    """The pillars under two equal square lights of edge `size`, their centres `apart`, in one plane."""
+def two_windows(apart: float = 3.0) -> SceneOf:
+    """The pillars under two equal square lights, their centres `apart`, in one plane."""
+    corner, u, v = PILLARS_LIGHT
+    return lambda: _pillars_and(corner + apart / 2.0 * u, u, v, "second")
 
-    def build() -> am.Scene:
-        scene = am.builtin("pillars", light_size=size)
-        # The light of the built-in scene: its centre, and the plane that faces the middle of the floor.
-        center = np.array([-3.3, 6.2, -3.6])
-        toward = np.array([0.0, 0.5, 0.0]) - center
-        toward /= np.linalg.norm(toward)
-        u = np.cross(toward, [0.0, 1.0, 0.0])
-        u /= np.linalg.norm(u)
-        v = np.cross(toward, u)
-        corner = center + (apart - size / 2) * u - size / 2 * v
-        radiance = 165.0 / size**2 * np.array([1.0, 0.93, 0.82])
-        sides = (corner.tolist(), (size * u).tolist(), (size * v).tolist())
-        scene.add_light(am.lights.Rectangle(*sides, radiance=tuple(radiance)), name="second")
-        return scene
 
-    return build
+@cache
+def pillars_with_strip(start: float, end: float) -> SceneOf:
+    """The pillars, and the part `start` to `end` of their light along its first side as a light "strip" of its own.
+
+    It lies in the other light: only for light sampling with one of the two.
+    """
+    corner, u, v = PILLARS_LIGHT
+    return lambda: _pillars_and(corner + start * u, (end - start) * u, v, "strip")
 
 
 @cache
