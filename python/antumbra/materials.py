@@ -1,10 +1,13 @@
-"""How surfaces look: `Diffuse`, `Mirror`, `MetallicRoughness`. Colours are one number or three (linear, Rec. 709)."""
+"""How surfaces look. Colours are one number or three (linear, Rec. 709), in [0, 1].
+
+A `roughness` in [0, 1] is the perceptual one: GGX facets of α = roughness²; 0 is polished.
+"""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
-from antumbra._values import Color, Described, Fields, color, fraction
+from antumbra._values import Color, Described, Fields, color, fraction, within
 
 
 @dataclass(frozen=True)
@@ -56,4 +59,63 @@ class MetallicRoughness(Described):
         }
 
 
-Material = Diffuse | Mirror | MetallicRoughness
+@dataclass(frozen=True)
+class Conductor:
+    """A metal that reflects by Fresnel's equations, polished or of GGX facets.
+
+    `metal`: a chemical symbol (Ag, Al, Au, Be, Cr, Cu, Hg, Ir, K, Li, Mo, Na, Nb, Ni, Rh, Ta, TiN, V, VN, W), or the
+    complex index of refraction as a pair (η, k), each one number or three.
+    """
+
+    metal: str | tuple[Color, Color] = "Al"
+    roughness: float = 0.0
+
+    def fields(self) -> Fields:
+        """Its numbers by name."""
+        eta, k = _metal(self.metal) if isinstance(self.metal, str) else self.metal
+        return {"eta": color("eta", eta), "k": color("k", k), "roughness": [fraction("roughness", self.roughness)]}
+
+
+@dataclass(frozen=True)
+class Dielectric:
+    """A body of glass or water, clear or of GGX facets: it reflects and refracts.
+
+    `ior`: its index of refraction over that around it, 0.1 to 10. Shadow rays do not pass it; paths do.
+    """
+
+    ior: float = 1.5
+    roughness: float = 0.0
+
+    def fields(self) -> Fields:
+        """Its numbers by name."""
+        return {"ior": [within("ior", self.ior, 0.1, 10.0)], "roughness": [fraction("roughness", self.roughness)]}
+
+
+@dataclass(frozen=True)
+class ThinDielectric:
+    """A pane of clear glass without thickness: light goes straight through or is mirrored, between its faces too.
+
+    `ior`: its index of refraction over that around it, 0.1 to 10. Shadow rays do not pass it; paths do.
+    """
+
+    ior: float = 1.5
+
+    def fields(self) -> Fields:
+        """Its numbers by name."""
+        return {"ior": [within("ior", self.ior, 0.1, 10.0)]}
+
+
+Material = Diffuse | Mirror | MetallicRoughness | Conductor | Dielectric | ThinDielectric
+
+
+def _metal(name: str) -> tuple[list[float], list[float]]:
+    from antumbra import _core
+
+    known = _core.metals()
+    found = {symbol.lower(): (eta, k) for symbol, eta, k in known}.get(name.lower())
+    if found is None:
+        symbols = ", ".join(symbol for symbol, _, _ in known)
+        raise ValueError(f'there is no metal "{name}"; there are: {symbols}')
+    return found
+
+

@@ -273,9 +273,19 @@ def test_meshes_of_other_libraries_are_taken():
 def test_every_light_shape_and_material_is_made():
     scene = am.Scene()
     m, s = am.materials, am.shapes
-    for x, material in enumerate(
-        (m.Diffuse(0.2), m.Mirror(0.9), m.MetallicRoughness((1, 0.8, 0.3), 1.0, 0.3))
-    ):
+    looks = [
+        m.Diffuse(0.2),
+        m.Mirror(0.9),
+        m.MetallicRoughness((1, 0.8, 0.3), 1.0, 0.3),
+        m.Conductor("au"),
+        m.Conductor((0.2, (3, 2, 1)), roughness=0.4),
+        m.Dielectric(1.33),
+        m.Dielectric(roughness=0.5),
+        m.ThinDielectric(),
+    ]
+    with pytest.raises(ValueError, match='there is no metal "gold"; there are: Ag, Al, Au'):
+        m.Conductor("gold").fields()
+    for x, material in enumerate(looks):
         scene.add_shape(s.Sphere((x, 0.5, 0), 0.4), material=material)
     scene.add_shape(s.Disk((0, 0, 0), (0, 1, 0), 5))
     scene.add_shape(s.Cylinder((0, 0, 2), (0, 1, 2), 0.2))

@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 
+use antumbra::bsdf::{Facets, Metal};
 use antumbra::light::{Directional, Disk, Environment, Light, Point, Rectangle, Sphere, Spot, Sun, Triangle};
 use antumbra::math::{Rgb, Vec3};
 use antumbra::scene::{Emission, Material};
@@ -47,6 +48,12 @@ impl Fields {
         Ok(Vec3::from(self.vector(name)?))
     }
 
+    /// α = roughness²; `None` = polished.
+    fn facets(&self) -> PyResult<Option<Facets>> {
+        let roughness = self.number("roughness")?;
+        Ok((roughness > 0.0).then(|| Facets::isotropic(roughness * roughness)))
+    }
+
     fn rgb(&self, name: &str) -> PyResult<Rgb> {
         Ok(Rgb(self.vector(name)?))
     }
@@ -54,6 +61,16 @@ impl Fields {
 
 fn unknown<T>(what: &str, kind: &str) -> PyResult<T> {
     Err(errors::value(format!("there is no {what} \"{kind}\"")))
+}
+
+/// A metal as Python sees it: symbol, η, k.
+type MetalRow = (&'static str, [f32; 3], [f32; 3]);
+
+/// The metals that have a name.
+#[pyfunction]
+pub fn metals() -> Vec<MetalRow> {
+    let row = |name| Metal::named(name).map(|m| (name, m.eta.0, m.k.0));
+    Metal::names().filter_map(row).collect()
 }
 
 /// A material of `antumbra.materials`; `emission` is the radiance of its front.
@@ -66,6 +83,11 @@ pub fn material(kind: &str, fields: &Fields, emission: Option<[f32; 3]>) -> PyRe
             fields.number("metallic")?,
             fields.number("roughness")?,
         ),
+        "Conductor" => {
+            Material::conductor(Metal { eta: fields.rgb("eta")?, k: fields.rgb("k")? }, fields.facets()?)
+        }
+        "Dielectric" => Material::dielectric(fields.number("ior")?, fields.facets()?),
+        "ThinDielectric" => Material::thin_dielectric(fields.number("ior")?),
         _ => return unknown("material", kind),
     };
     let emission = emission.map(|radiance| Emission { radiance: Rgb(radiance), both_sides: false });

@@ -20,6 +20,8 @@ use pyo3::prelude::*;
 #[pymodule(gil_used = false)]
 mod _core {
     #[pymodule_export]
+    use super::kinds::metals;
+    #[pymodule_export]
     use super::picture::{Picture, check_writable, read_part, read_picture, write_picture};
     #[pymodule_export]
     use super::receivers::{Hits, Receivers};

@@ -69,19 +69,19 @@ impl Ggx {
     #[inline]
     pub fn sample(self, wo: Local, u: [f32; 2]) -> Local {
         let phi = 2.0 * real::PI * u[0];
-        let m = visible_normal(wo.0, self.alpha, u[1], real::cosf(phi), real::sinf(phi));
+        let m = visible_normal(wo.0, [self.alpha; 2], u[1], real::cosf(phi), real::sinf(phi));
         Local((m * (2.0 * wo.0.dot(m)) - wo.0).normalize())
     }
 }
 
-/// A visible normal: stretch ω_o to α = 1, add a point of the cap that reflects there, stretch back.
+/// A visible normal of widths α along the two tangents: stretch ω_o to α = 1, add a point of the cap that reflects there, stretch back.
 #[inline]
-fn visible_normal(wo: Vec3, alpha: f32, u: f32, cos_phi: f32, sin_phi: f32) -> Vec3 {
-    let w = Vec3::new(alpha * wo.x, alpha * wo.y, wo.z).normalize();
+pub(super) fn visible_normal(wo: Vec3, [ax, ay]: [f32; 2], u: f32, cos_phi: f32, sin_phi: f32) -> Vec3 {
+    let w = Vec3::new(ax * wo.x, ay * wo.y, wo.z).normalize();
     // z of the sum, 1−u times the cap's height, is formed before z of the cap: it never cancels.
     let sum_z = (1.0 - u) * (1.0 + w.z);
     let z = sum_z - w.z;
     let r = real::safe_sqrt(1.0 - z * z);
     let sum = Vec3::new(r * cos_phi + w.x, r * sin_phi + w.y, sum_z);
-    Vec3::new(alpha * sum.x, alpha * sum.y, sum.z).normalize_or(Vec3::Z)
+    Vec3::new(ax * sum.x, ay * sum.y, sum.z).normalize_or(Vec3::Z)
 }

@@ -1,18 +1,34 @@
 //! f_r: how a surface reflects. Floor 2. To add one: a file here and a line in `kinds!`.
 //!
 //! Local frame, n = +z, ω_o and ω_i point away from the surface; `eval` is WITHOUT the cosine.
-//! Laws of every kind: f(ω_o, ω_i) = f(ω_i, ω_o), albedo ≤ 1, `sample` agrees with `pdf` (χ²), finite at grazing.
+//! Laws of every kind: f(ω_o, ω_i) n_i² = f(ω_i, ω_o) n_o² (n the index of refraction on the side of each direction),
+//! albedo ≤ 1, `sample` agrees with `pdf` (χ²), finite at grazing.
 
+mod conductor;
+mod dielectric;
 mod diffuse;
+mod facets;
+mod fresnel;
 mod ggx;
 mod ggx_albedo;
+mod metal;
 mod metallic_roughness;
 mod mirror;
+mod rough_conductor;
+mod rough_dielectric;
+mod thin_dielectric;
 
+pub use conductor::Conductor;
+pub use dielectric::Dielectric;
 pub use diffuse::Diffuse;
+pub use facets::Facets;
 pub use ggx::MIN_ALPHA;
+pub use metal::Metal;
 pub use metallic_roughness::MetallicRoughness;
 pub use mirror::Mirror;
+pub use rough_conductor::RoughConductor;
+pub use rough_dielectric::RoughDielectric;
+pub use thin_dielectric::ThinDielectric;
 
 use antumbra_math::{Local, Rgb};
 
@@ -41,7 +57,11 @@ pub trait BsdfKind {
     fn is_delta(&self) -> bool {
         false
     }
-    /// About the share of light that is reflected (for the albedo picture, roulette).
+    /// n below the surface over n above it, for kinds that let light through; `None` for those that are black from below.
+    fn index_below(&self) -> Option<f32> {
+        None
+    }
+    /// About the share of light that is reflected or let through (for the albedo picture, roulette).
     fn albedo(&self) -> Rgb;
     /// Examples for the contract tests.
     fn examples() -> Vec<Self>
@@ -78,6 +98,11 @@ macro_rules! kinds {
             pub fn is_delta(&self) -> bool {
                 match self { $(Bsdf::$kind(b) => b.is_delta()),* }
             }
+            /// See [`BsdfKind::index_below`].
+            #[inline]
+            pub fn index_below(&self) -> Option<f32> {
+                match self { $(Bsdf::$kind(b) => b.index_below()),* }
+            }
             /// See [`BsdfKind::albedo`].
             #[inline]
             pub fn albedo(&self) -> Rgb {
@@ -93,4 +118,13 @@ macro_rules! kinds {
     };
 }
 
-kinds!(Diffuse, Mirror, MetallicRoughness);
+kinds!(
+    Diffuse,
+    Mirror,
+    MetallicRoughness,
+    Conductor,
+    RoughConductor,
+    Dielectric,
+    ThinDielectric,
+    RoughDielectric,
+);

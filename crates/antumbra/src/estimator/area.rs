@@ -1,6 +1,6 @@
 //! The area form over the lights: L = ∫ f_r L_e V cos θ cos θ′ / r² dA, points drawn on the lights. Direct light.
 
-use super::lights::{Lights, sees_lights};
+use super::lights::{Lights, blind_to_single_directions, sees_lights};
 use super::{Drawn, Draws, Estimator, Options, Proposals};
 use crate::light::sampler::Scratch;
 use crate::receiver::Receiver;
@@ -39,12 +39,6 @@ impl Estimator for Area {
     }
 
     fn blind_to(&self, scene: &Scene) -> Vec<String> {
-        let mirror = |m: &crate::scene::Material| matches!(m.surface, crate::scene::Surface::Mirror { .. });
-        let seen = |o: &crate::scene::Placed| mirror(&scene.materials[o.material as usize]);
-        let blind = scene.objects.iter().any(seen);
-        blind
-            .then(|| "estimator area does not see lights in mirrors (mis and path do)".into())
-            .into_iter()
-            .collect()
+        blind_to_single_directions(scene, "area")
     }
 }

@@ -3,6 +3,7 @@
 use antumbra_math::{Local, Rgb, World, real, warp};
 
 use super::{Draws, Estimator, Found, Mistake, Nth, Onward, Options, Proposals};
+use crate::bsdf::Bsdf;
 use crate::density::Density;
 use crate::receiver::Receiver;
 use crate::sampler::Use;
@@ -23,6 +24,8 @@ pub enum Directions {
 /// A direction with what light along it is worth.
 pub(super) struct Direction {
     pub wi: World,
+    /// The same in the shading frame.
+    local: Local,
     /// f_r · cos θ / p.
     pub throughput: Rgb,
     pub density: Density,
@@ -33,9 +36,9 @@ impl Directions {
     #[inline]
     pub(super) fn draw(self, at: &Receiver, u: &Draws<'_>, nth: Nth) -> Option<Direction> {
         let [u0, u1] = u.pair(at, Use::Direction, nth);
-        let drawn = if self == Directions::Bsdf || at.bsdf.is_delta() {
+        let drawn = if self.follows(&at.bsdf) {
             let s = at.bsdf.sample(at.wo, [u0, u1, u.one(at, Use::Lobe, nth)])?;
-            Direction { wi: at.to_world(s.wi), throughput: s.throughput, density: s.density }
+            Direction { wi: at.to_world(s.wi), local: s.wi, throughput: s.throughput, density: s.density }
         } else {
             let map = if self == Directions::Uniform { warp::hemisphere } else { warp::cosine_hemisphere };
             let local = map([u0, u1]);
@@ -44,17 +47,27 @@ impl Directions {
                 return None;
             }
             let throughput = at.bsdf.eval(at.wo, local) * (local.cos() / p);
-            Direction { wi: at.to_world(local), throughput, density: Density::SolidAngle(p) }
+            Direction { wi: at.to_world(local), local, throughput, density: Density::SolidAngle(p) }
         };
-        (at.sees_side(drawn.wi) && !drawn.throughput.is_black()).then_some(drawn)
+        // Below the shading normal light leaves only through the surface, on the other side of both normals.
+        let through = drawn.local.cos() < 0.0;
+        (at.sees_side(drawn.wi) != through && !drawn.throughput.is_black()).then_some(drawn)
+    }
+
+    /// Directions are drawn as the BSDF sends light: where the hemisphere above holds not all of them, or none at all.
+    #[inline]
+    fn follows(self, bsdf: &Bsdf) -> bool {
+        self == Directions::Bsdf || bsdf.is_delta() || bsdf.index_below().is_some()
     }
 
     /// p(ω) of `draw` [1/sr].
     #[inline]
     pub(super) fn pdf(self, at: &Receiver, wi: Local) -> f32 {
+        if self.follows(&at.bsdf) {
+            return at.bsdf.pdf(at.wo, wi);
+        }
         match self {
-            Directions::Bsdf => at.bsdf.pdf(at.wo, wi),
-            Directions::Cosine => wi.cos().max(0.0) * real::INV_PI,
+            Directions::Bsdf | Directions::Cosine => wi.cos().max(0.0) * real::INV_PI,
             Directions::Uniform => 0.5 * real::INV_PI,
         }
     }

@@ -10,7 +10,7 @@ use crate::light::sampler::{Choose, LightSampler, Scratch};
 use crate::light::{End, LightId, LightPoints, LightSample};
 use crate::receiver::Receiver;
 use crate::sampler::Use;
-use crate::scene::Scene;
+use crate::scene::{Placed, Scene};
 
 /// Which lights a receiver asks (`--lights`).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -78,8 +78,23 @@ impl Lights {
         Lights { sampler, how, mistake, opaque }
     }
 
-    /// Proposes N segments to the lights (or to each light), weighed against drawing the direction from `other`.
+    /// Proposes N segments to the lights (or to each light), weighed against drawing the direction from `other`; where
+    /// light comes through the surface, as many from its other side.
     pub fn propose(
+        &self,
+        scene: &Scene,
+        at: &Receiver,
+        u: &Draws<'_>,
+        other: Option<&dyn Fn(&LightSample) -> f32>,
+        out: &mut Proposals,
+    ) {
+        self.propose_from(scene, at, u, other, out);
+        if at.spreads_through() {
+            self.propose_from(scene, &at.from_behind(), u, other, out);
+        }
+    }
+
+    fn propose_from(
         &self,
         scene: &Scene,
         at: &Receiver,
@@ -96,7 +111,7 @@ impl Lights {
         out.light_weights = weights;
     }
 
-    /// Draws the N points (of each light) that `propose` draws, in its order.
+    /// Draws the N points (of each light) that `propose` draws on the side of the receiver, in its order.
     #[inline]
     pub fn each(
         &self,
@@ -141,12 +156,9 @@ impl Lights {
     ) -> Drawn {
         let nothing = Drawn { nth, light, prob, to: None, f: Rgb::BLACK, weight: 0.0, carried: Rgb::BLACK };
         let Some(s) = scene.lights()[light as usize].sample(at, u, self.how) else { return nothing };
-        if !at.sees_side(s.wi) {
-            return Drawn { to: Some(s), ..nothing };
-        }
-        let wi = at.to_local(s.wi);
+        let Some(wi) = at.local_in_sight(s.wi) else { return Drawn { to: Some(s), ..nothing } };
         let f = at.bsdf.eval(at.wo, wi);
-        let mut carried = f * s.radiance * (wi.cos() / (prob * s.density.weight()));
+        let mut carried = f * s.radiance * (wi.cos().abs() / (prob * s.density.weight()));
         let n = nth.n;
         let mut weight = 1.0;
         if let (Some(other), Density::SolidAngle(p)) = (other, s.density) {
@@ -162,11 +174,13 @@ impl Lights {
 
     /// p(light) · p(ω): how densely one shadow ray draws the direction that found a light.
     pub fn density(&self, scene: &Scene, found: &FoundLight<'_>, scratch: &mut Scratch) -> f32 {
+        let behind = (!found.from.sees_side(found.wi)).then(|| found.from.from_behind());
+        let from = behind.as_ref().unwrap_or(found.from);
         let prob = match &self.sampler {
             None => 1.0,
-            Some(sampler) => sampler.prepare(scene.lights(), found.from, scratch).prob(found.light),
+            Some(sampler) => sampler.prepare(scene.lights(), from, scratch).prob(found.light),
         };
-        prob * scene.lights()[found.light as usize].pdf(found.from, found.wi, self.how)
+        prob * scene.lights()[found.light as usize].pdf(from, found.wi, self.how)
     }
 
     /// The factor by which a wrong estimator differs from the right one.
@@ -197,6 +211,15 @@ impl Lights {
 #[inline]
 pub fn balance(mine: f32, other: f32) -> f32 {
     if mine <= 0.0 { 0.0 } else { 1.0 / (1.0 + other / mine) }
+}
+
+/// What light sampling cannot see of a scene, for the estimator `name`.
+pub(super) fn blind_to_single_directions(scene: &Scene, name: &str) -> Vec<String> {
+    let single = |o: &Placed| scene.materials[o.material as usize].surface.has_single_directions();
+    let text = || {
+        format!("estimator {name} does not see lights in mirrors or through clear glass (mis and path do)")
+    };
+    scene.objects.iter().any(single).then(text).into_iter().collect()
 }
 
 /// Light sampling can see this reflection.

@@ -38,7 +38,9 @@ pub(super) fn survive(at: &Receiver, u: &Draws<'_>, bounces: u32, roulette: bool
     if !roulette || at.bounce < SURE_BOUNCES {
         return Some(1.0);
     }
-    let q = (at.throughput * at.bsdf.albedo()).max().min(LARGEST);
+    // Radiance inside a body of index n is n² times what it will be outside: what counts is what leaves.
+    let inside = at.bsdf.index_below().map_or(1.0, |eta| 1.0 / (eta * eta).min(1.0));
+    let q = ((at.throughput * at.bsdf.albedo()).max() * inside).min(LARGEST);
     (u.one(at, Use::Roulette, Nth::ONLY) < q).then_some(1.0 / q)
 }
 

@@ -97,7 +97,8 @@ impl Proposals {
     #[inline]
     pub fn ray(&mut self, at: &Receiver, wi: World, onward: Onward) {
         let number = !number(at, onward.branch);
-        self.rays.push_ray(at.start, wi.to_array(), f32::INFINITY, at.prim, number);
+        let start = if at.sees_side(wi) { at.start } else { at.beyond };
+        self.rays.push_ray(start, wi.to_array(), f32::INFINITY, at.prim, number);
         self.onward.push(onward);
     }
 }

@@ -2,6 +2,7 @@
 
 use antumbra_math::{Rgb, Vec3, World};
 
+use super::lights::blind_to_single_directions;
 use super::proposals::plane_of;
 use super::{Draws, Estimator, Nth, Options, Proposals};
 use crate::density::Density;
@@ -28,6 +29,7 @@ impl Estimator for Surfaces {
     fn propose(&self, scene: &Scene, at: &[Receiver], u: &Draws<'_>, out: &mut Proposals) {
         for at in at {
             let n = u.count(at);
+            let behind = at.spreads_through().then(|| at.from_behind());
             for nth in Nth::of(n) {
                 let point = u.pair(at, Use::LightPoint, nth);
                 let Some(q) = self.areas.point(scene, u.one(at, Use::LightChoice, nth), point) else {
@@ -40,12 +42,13 @@ impl Estimator for Surfaces {
                 let facing = -q.n.dot(wi);
                 let covered = if self.opaque { 1.0 } else { scene.coverage(q.prim, q.p) };
                 let radiance = scene.emitted_at(q.prim, wi, facing > 0.0) * covered;
-                if radiance.is_black() || !at.sees_side(wi) || facing == 0.0 || distance2 == 0.0 {
+                if radiance.is_black() || facing == 0.0 || distance2 == 0.0 {
                     continue;
                 }
-                let local = at.to_local(wi);
+                let at = if at.sees_side(wi) { at } else { behind.as_ref().unwrap_or(at) };
+                let Some(local) = at.local_in_sight(wi) else { continue };
                 // G without V: cos θ cos θ′ / r².
-                let g = local.cos() * facing.abs() / distance2;
+                let g = local.cos().abs() * facing.abs() / distance2;
                 let carried = at.bsdf.eval(at.wo, local) * radiance * (g * self.areas.total() / n as f32);
                 let end = End::Point(Vec3::from(q.end_toward(-wi)));
                 let density = Density::SolidAngle(distance2 / (facing.abs() * self.areas.total()));
@@ -64,6 +67,7 @@ impl Estimator for Surfaces {
         let text = format!(
             "estimator surfaces does not see lights without a surface ({n} here: points, sun or sky)"
         );
-        if n > 0 { vec![text] } else { Vec::new() }
+        let unseen = (n > 0).then_some(text);
+        unseen.into_iter().chain(blind_to_single_directions(scene, "surfaces")).collect()
     }
 }

@@ -51,6 +51,9 @@ impl SceneBuilder {
                     return Err(SceneError::new(material_place(i, m), what, ""));
                 }
             }
+            if let Some(what) = m.surface.fault() {
+                return Err(SceneError::new(material_place(i, m), what, ""));
+            }
             if let Some(e) = m.emission
                 && !(e.radiance.is_finite() && e.radiance.0.iter().all(|c| *c >= 0.0))
             {

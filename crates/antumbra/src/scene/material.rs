@@ -2,6 +2,8 @@
 
 use antumbra_math::Rgb;
 
+use crate::bsdf::{Conductor, Dielectric, Facets, Metal, RoughConductor, RoughDielectric, ThinDielectric};
+
 /// Index of a material in its scene.
 pub type MaterialId = u32;
 /// Index of a texture in its scene.
@@ -29,6 +31,50 @@ pub enum Surface {
         /// Perceptual roughness, α = roughness²; times the green of the metallic-roughness texture.
         roughness: f32,
     },
+    /// Polished metal; the colour texture multiplies its reflectance.
+    Conductor(Conductor),
+    /// Rough metal; the colour texture multiplies its reflectance.
+    RoughConductor(RoughConductor),
+    /// Clear glass, its index that of the inside over the outside; the colour texture multiplies what it lets through.
+    Dielectric(Dielectric),
+    /// A pane of glass; the colour texture multiplies what it lets through.
+    ThinDielectric(ThinDielectric),
+    /// Ground glass; the colour texture multiplies what it lets through.
+    RoughDielectric(RoughDielectric),
+}
+
+impl Surface {
+    /// A part of its light leaves into single directions, where light sampling cannot see it.
+    pub fn has_single_directions(&self) -> bool {
+        match self {
+            Surface::Mirror { .. }
+            | Surface::Conductor(_)
+            | Surface::Dielectric(_)
+            | Surface::ThinDielectric(_) => true,
+            Surface::Diffuse { .. }
+            | Surface::MetallicRoughness { .. }
+            | Surface::RoughConductor(_)
+            | Surface::RoughDielectric(_) => false,
+        }
+    }
+
+    /// The metal that it is made of.
+    fn metal(&self) -> Option<&Metal> {
+        match self {
+            Surface::Conductor(c) => Some(&c.metal),
+            Surface::RoughConductor(c) => Some(&c.metal),
+            _ => None,
+        }
+    }
+
+    /// What makes it impossible, in words.
+    pub(super) fn fault(&self) -> Option<String> {
+        let impossible = self.metal().filter(|metal| !metal.is_possible())?;
+        Some(format!(
+            "is a metal of η {:?} and k {:?}: η must be above 0, k not below",
+            impossible.eta.0, impossible.k.0
+        ))
+    }
 }
 
 /// How the alpha of the colour texture is read.
@@ -55,7 +101,7 @@ pub struct Emission {
     pub both_sides: bool,
 }
 
-/// The look of a surface. Both sides reflect.
+/// The look of a surface.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Material {
     /// Its name in the file; may be empty.
@@ -70,6 +116,8 @@ pub struct Material {
     pub emission: Option<Emission>,
     /// How alpha is read.
     pub alpha: Alpha,
+    /// Its back is black; else both sides look alike.
+    pub one_sided: bool,
     /// Alpha factor, times the texture's and the vertex colours' alpha.
     pub opacity: f32,
 }
@@ -90,6 +138,28 @@ impl Material {
         Material::of(Surface::MetallicRoughness { base, metallic, roughness })
     }
 
+    /// Metal, polished or with facets.
+    pub fn conductor(metal: Metal, facets: Option<Facets>) -> Material {
+        let reflectance = Rgb::WHITE;
+        Material::of(match facets {
+            None => Surface::Conductor(Conductor { metal, reflectance }),
+            Some(facets) => Surface::RoughConductor(RoughConductor::new(metal, reflectance, facets)),
+        })
+    }
+
+    /// A body of glass, clear or ground; `eta` = n inside over n outside.
+    pub fn dielectric(eta: f32, facets: Option<Facets>) -> Material {
+        Material::of(match facets {
+            None => Surface::Dielectric(Dielectric::clear(eta)),
+            Some(facets) => Surface::RoughDielectric(RoughDielectric::new(eta, facets)),
+        })
+    }
+
+    /// A pane of clear glass without thickness; `eta` = n of the pane over n around it.
+    pub fn thin_dielectric(eta: f32) -> Material {
+        Material::of(Surface::ThinDielectric(ThinDielectric::clear(eta)))
+    }
+
     /// A black surface that emits from its front.
     pub fn light(radiance: Rgb) -> Material {
         let emission = Some(Emission { radiance, both_sides: false });
@@ -99,15 +169,21 @@ impl Material {
     /// Takes every factor into [0, 1]; says whether one had to be.
     pub(super) fn tame(&mut self) -> bool {
         let mut any = tame(&mut self.opacity);
-        let color = match &mut self.surface {
-            Surface::Diffuse { albedo } => albedo,
-            Surface::Mirror { reflectance } => reflectance,
+        let [first, second] = match &mut self.surface {
+            Surface::Diffuse { albedo } => [Some(albedo), None],
+            Surface::Mirror { reflectance } => [Some(reflectance), None],
             Surface::MetallicRoughness { base, metallic, roughness } => {
                 any |= tame(metallic) | tame(roughness);
-                base
+                [Some(base), None]
             }
+            Surface::Conductor(c) => [Some(&mut c.reflectance), None],
+            Surface::RoughConductor(c) => [Some(&mut c.reflectance), None],
+            Surface::Dielectric(d) => [Some(&mut d.reflectance), Some(&mut d.transmittance)],
+            Surface::ThinDielectric(d) => [Some(&mut d.reflectance), Some(&mut d.transmittance)],
+            Surface::RoughDielectric(d) => [Some(&mut d.reflectance), Some(&mut d.transmittance)],
         };
-        color.0.iter_mut().for_each(|c| any |= tame(c));
+        let colors = [first, second].into_iter().flatten();
+        colors.flat_map(|color| &mut color.0).for_each(|c| any |= tame(c));
         any
     }
 
@@ -124,6 +200,7 @@ impl Material {
             metallic_roughness: None,
             emission: None,
             alpha: Alpha::Opaque,
+            one_sided: false,
             opacity: 1.0,
         }
     }

@@ -58,14 +58,20 @@ impl Scene {
         let wo = -d.normalize();
         let ng = toward.as_vec3();
         let frame = self.shading_frame(object, local, uv, ng, front, wo);
+        let bsdf = self.bsdf(object, local, uv, front, look);
+        let beyond = match bsdf.index_below() {
+            None => start,
+            Some(_) => place.start(-toward, prim, look.start).0,
+        };
         let receiver = Receiver {
             p: place.p.as_vec3(),
             start,
+            beyond,
             prim: first,
             ng,
             wo: frame.to_local(wo),
             frame,
-            bsdf: self.bsdf(object, local, uv, look),
+            bsdf,
             cell: 0,
             stream: 0,
             index: 0,
@@ -115,11 +121,14 @@ impl Scene {
     }
 
     /// The reflection of a surface with its textures looked up.
-    fn bsdf(&self, object: &Placed, local: u32, uv: [f32; 2], look: &Look) -> Bsdf {
+    fn bsdf(&self, object: &Placed, local: u32, uv: [f32; 2], front: bool, look: &Look) -> Bsdf {
         if let Some(rho) = look.clay {
             return Bsdf::Diffuse(Diffuse { albedo: Rgb::grey(rho) });
         }
         let material = &self.materials[object.material as usize];
+        if material.one_sided && !front {
+            return Bsdf::Diffuse(Diffuse { albedo: Rgb::BLACK });
+        }
         let mesh = match object.body {
             Body::Mesh(m) => Some(&self.meshes[m as usize]),
             Body::Shape(_) => None,
@@ -134,17 +143,44 @@ impl Scene {
                 mesh.and_then(|m| m.color_at(local, uv)).map_or(Rgb::WHITE, |c| Rgb([c[0], c[1], c[2]]));
             c * texel * vertex
         };
-        match material.surface {
-            Surface::Diffuse { albedo } => Bsdf::Diffuse(Diffuse { albedo: tint(albedo) }),
-            Surface::Mirror { reflectance } => Bsdf::Mirror(Mirror { reflectance: tint(reflectance) }),
-            Surface::MetallicRoughness { base, metallic, roughness } => {
-                let [_, green, blue, _] = texel(material.metallic_roughness).unwrap_or([1.0; 4]);
-                Bsdf::MetallicRoughness(MetallicRoughness::new(
-                    tint(base),
-                    metallic * blue,
-                    roughness * green,
-                ))
-            }
+        reflection(&material.surface, front, tint, || texel(material.metallic_roughness).unwrap_or([1.0; 4]))
+    }
+}
+
+/// The BSDF of a surface on its front or back; `tint` multiplies a colour by the texture's, `metal_rough` is the texel of
+/// metallic (blue) and roughness (green).
+fn reflection(
+    surface: &Surface,
+    front: bool,
+    tint: impl Fn(Rgb) -> Rgb,
+    metal_rough: impl Fn() -> [f32; 4],
+) -> Bsdf {
+    match *surface {
+        Surface::Diffuse { albedo } => Bsdf::Diffuse(Diffuse { albedo: tint(albedo) }),
+        Surface::Mirror { reflectance } => Bsdf::Mirror(Mirror { reflectance: tint(reflectance) }),
+        Surface::MetallicRoughness { base, metallic, roughness } => {
+            let [_, green, blue, _] = metal_rough();
+            Bsdf::MetallicRoughness(MetallicRoughness::new(tint(base), metallic * blue, roughness * green))
+        }
+        Surface::Conductor(mut c) => {
+            c.reflectance = tint(c.reflectance);
+            Bsdf::Conductor(c)
+        }
+        Surface::RoughConductor(mut c) => {
+            c.reflectance = tint(c.reflectance);
+            Bsdf::RoughConductor(c)
+        }
+        Surface::Dielectric(mut d) => {
+            d.transmittance = tint(d.transmittance);
+            Bsdf::Dielectric(if front { d } else { d.turned() })
+        }
+        Surface::ThinDielectric(mut d) => {
+            d.transmittance = tint(d.transmittance);
+            Bsdf::ThinDielectric(d)
+        }
+        Surface::RoughDielectric(mut d) => {
+            d.transmittance = tint(d.transmittance);
+            Bsdf::RoughDielectric(if front { d } else { d.turned() })
         }
     }
 }

@@ -33,6 +33,7 @@ impl Query {
         Receiver {
             p: Vec3::new(self.p[0] as f32, self.p[1] as f32, self.p[2] as f32),
             start,
+            beyond: start,
             prim,
             ng: n,
             frame: Frame::about(n),

@@ -24,6 +24,7 @@ fn receiver(p: [f32; 3], normal: [f32; 3]) -> Receiver {
     Receiver {
         p: World::from_array(p),
         start: p,
+        beyond: p,
         prim: NO_PRIM,
         ng: n,
         frame: Frame::about(n),

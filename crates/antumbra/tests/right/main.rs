@@ -11,6 +11,7 @@ mod closed_ao;
 mod coverage;
 mod explain;
 mod furnace;
+mod glass;
 mod instances;
 mod judge;
 mod lengths;

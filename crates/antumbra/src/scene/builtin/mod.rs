@@ -17,6 +17,7 @@ pub mod solids;
 mod terrain;
 #[cfg(test)]
 mod tests;
+mod veach_mis;
 
 pub use sky::default_sky;
 pub use sky_dome::under;
@@ -73,6 +74,7 @@ pub const SCENES: &[Builtin] = &[
     corner::SCENE,
     sky_dome::SCENE,
     many_lights::SCENE,
+    veach_mis::SCENE,
     eclipse::SCENE,
     terrain::SCENE,
     interior::SCENE,

@@ -299,6 +299,7 @@ fn bare(bsdf: Bsdf) -> crate::receiver::Receiver {
     crate::receiver::Receiver {
         p: World::ZERO,
         start: [0.0; 3],
+        beyond: [0.0; 3],
         prim: antumbra_trace::NO_PRIM,
         ng: n,
         frame,
