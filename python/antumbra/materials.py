@@ -105,7 +105,31 @@ class ThinDielectric:
         return {"ior": [within("ior", self.ior, 0.1, 10.0)]}
 
 
-Material = Diffuse | Mirror | MetallicRoughness | Conductor | Dielectric | ThinDielectric
+@dataclass(frozen=True)
+class Plastic:
+    """A clear coat, polished or of GGX facets, over a diffuse base; it gives back what it gets, less what the base keeps.
+
+    `albedo` of the base, one number or three; `ior`: the coat's index of refraction over that outside, 0.1 to 10.
+    `nonlinear`: light between coat and base takes the base's colour at each bounce, so that it deepens; else the colour
+    stays as given.
+    """
+
+    albedo: Color = 0.5
+    ior: float = 1.5
+    roughness: float = 0.0
+    nonlinear: bool = True
+
+    def fields(self) -> Fields:
+        """Its numbers by name."""
+        return {
+            "albedo": color("albedo", self.albedo),
+            "ior": [within("ior", self.ior, 0.1, 10.0)],
+            "roughness": [fraction("roughness", self.roughness)],
+            "nonlinear": [float(self.nonlinear)],
+        }
+
+
+Material = Diffuse | Mirror | MetallicRoughness | Conductor | Dielectric | ThinDielectric | Plastic
 
 
 def _metal(name: str) -> tuple[list[float], list[float]]:

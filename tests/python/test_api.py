@@ -282,6 +282,8 @@ def test_every_light_shape_and_material_is_made():
         m.Dielectric(1.33),
         m.Dielectric(roughness=0.5),
         m.ThinDielectric(),
+        m.Plastic((0.1, 0.2, 0.8)),
+        m.Plastic(roughness=0.3, nonlinear=False),
     ]
     with pytest.raises(ValueError, match='there is no metal "gold"; there are: Ag, Al, Au'):
         m.Conductor("gold").fields()

@@ -31,7 +31,7 @@ impl Local {
     /// Both directions lie on the same side of the surface (neither grazing).
     #[inline]
     pub fn same_side(self, other: Local) -> bool {
-        self.cos() * other.cos() > 0.0
+        (self.cos() > 0.0 && other.cos() > 0.0) || (self.cos() < 0.0 && other.cos() < 0.0)
     }
 }
 
@@ -58,6 +58,13 @@ impl Frame {
             t: Vec3::new(b, sign + n.y * n.y * a, -n.y),
             n,
         }
+    }
+
+    /// The same normal with its first tangent towards `t`, as far as that lies across the normal.
+    #[inline]
+    pub fn turned_to(self, t: Vec3) -> Frame {
+        let across = (t - self.n * t.dot(self.n)).normalize_or_zero();
+        if across == Vec3::ZERO { self } else { Frame { s: across, t: self.n.cross(across), n: self.n } }
     }
 
     /// World → local.

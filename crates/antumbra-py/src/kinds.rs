@@ -87,6 +87,10 @@ pub fn material(kind: &str, fields: &Fields, emission: Option<[f32; 3]>) -> PyRe
             Material::conductor(Metal { eta: fields.rgb("eta")?, k: fields.rgb("k")? }, fields.facets()?)
         }
         "Dielectric" => Material::dielectric(fields.number("ior")?, fields.facets()?),
+        "Plastic" => {
+            let nonlinear = fields.number("nonlinear")? != 0.0;
+            Material::plastic(fields.rgb("albedo")?, fields.number("ior")?, fields.facets()?, nonlinear)
+        }
         "ThinDielectric" => Material::thin_dielectric(fields.number("ior")?),
         _ => return unknown("material", kind),
     };

@@ -1,7 +1,7 @@
 //! Energy of every kind of reflection: under equal light from everywhere (the white furnace) a surface gives back
 //! ∫ f cos dω_i, never more than 1, and exactly what its model promises where that is known.
 
-use antumbra::bsdf::{Bsdf, BsdfKind, MetallicRoughness};
+use antumbra::bsdf::{Bsdf, BsdfKind, Coat, Facets, MetallicRoughness, Plastic, RoughCoat, RoughPlastic};
 use antumbra::math::stats::SphereBins;
 use antumbra::math::{Local, Rgb, Vec3, real};
 
@@ -83,6 +83,34 @@ fn clear_glass_loses_nothing() {
             assert!((a - 1.0).abs() <= 1e-6, "{name} {bsdf:?} cos {cos}: {a}");
         }
     }
+}
+
+#[test]
+fn white_plastic_is_a_white_furnace() {
+    // What the coat lets in and sends back ends outside: albedo 1 at every roughness and angle.
+    let alphas = [0.02f32, 0.1, 0.3, 1.0].map(|alpha| {
+        let coat = RoughCoat::new(1.5, Facets::isotropic(alpha), true);
+        Bsdf::RoughPlastic(RoughPlastic::new(coat, Rgb::WHITE))
+    });
+    for bsdf in [Bsdf::Plastic(Plastic::new(Coat::new(1.5, true), Rgb::WHITE))].into_iter().chain(alphas) {
+        for cos in COSINES {
+            let a = albedo(&bsdf, cos, 0);
+            assert!((a - 1.0).abs() <= QUADRATURE + table(cos), "{bsdf:?} cos {cos}: {a}");
+        }
+    }
+}
+
+#[test]
+fn a_coat_deepens_colours() {
+    // ρ = 0.5 under n = 1.5: F̄ + (1−F̄)² ρ/(η² (1−ρR)), F̄ = 0.0918, R = 0.5964, is 0.3530; with the colour kept,
+    // F̄ + (1−F̄) ρ = 0.5459.
+    let of = |nonlinear| Plastic::new(Coat::new(1.5, nonlinear), Rgb::grey(0.5)).albedo().0[0];
+    assert!(
+        (of(true) - 0.3530).abs() < 1e-3 && (of(false) - 0.5459).abs() < 1e-3,
+        "{} {}",
+        of(true),
+        of(false)
+    );
 }
 
 #[test]

@@ -2,7 +2,7 @@
 //! throughput against the integral of `eval`, and the energy of both. Seeds are fixed; each test's α is 0.001, shared
 //! among its comparisons by Šidák's rule.
 
-use antumbra::bsdf::Bsdf;
+use antumbra::bsdf::{Bsdf, BsdfSample};
 use antumbra::math::hash::{hash3, unit_f32};
 use antumbra::math::stats::{SphereBins, chi_square_test, normal_two_sided, sidak};
 use antumbra::math::{Local, Vec3, real};
@@ -57,6 +57,11 @@ fn cases() -> Vec<(&'static str, Bsdf, Local)> {
     spread.flat_map(|(name, b)| COSINES.map(|c| (name, b, outgoing(c)))).collect()
 }
 
+/// A sample, unless it leaves into the single direction of a coat.
+fn spread(bsdf: &Bsdf, wo: Local, u: [f32; 3]) -> Option<BsdfSample> {
+    bsdf.sample(wo, u).filter(|s| !s.density.is_delta())
+}
+
 #[test]
 fn samples_follow_the_pdf() {
     let n = 40_000;
@@ -69,7 +74,7 @@ fn samples_follow_the_pdf() {
             let density = |d: Vec3| if here(&d) { f64::from(bsdf.pdf(*wo, Local(d))) } else { 0.0 };
             let shares = bins.integrate(1e-5, density);
             let expected: Vec<f64> = shares.iter().map(|e| (e * f64::from(n)).max(0.0)).collect();
-            let drawn = |i: u32| bsdf.sample(*wo, numbers(i, case as u32)).map(|s| s.wi.0).filter(here);
+            let drawn = |i: u32| spread(bsdf, *wo, numbers(i, case as u32)).map(|s| s.wi.0).filter(here);
             let found = chi_square_test(&bins.count(n, drawn), &expected);
             assert!(found.p >= least, "{name} {bsdf:?} {wo:?} {side}: {found:?}");
         }
@@ -80,7 +85,9 @@ fn samples_follow_the_pdf() {
 fn the_pdf_integrates_to_at_most_one() {
     for (name, bsdf, wo) in cases() {
         let total = integral(&bsdf, wo, |wi| bsdf.pdf(wo, wi));
-        assert!(total <= 1.0 + QUADRATURE && total > 0.3, "{name} {bsdf:?} {wo:?}: {total}");
+        // Plastic mirrors nearly all at grazing angles: that part has no density.
+        let least = if matches!(bsdf, Bsdf::Plastic(_)) { 0.0 } else { 0.3 };
+        assert!(total <= 1.0 + QUADRATURE && total >= least, "{name} {bsdf:?} {wo:?}: {total}");
     }
 }
 
@@ -93,7 +100,7 @@ fn mean_throughput_is_what_eval_reflects() {
         for c in 0..3 {
             let mut sums = (0.0, 0.0);
             for i in 0..n {
-                let draw = bsdf.sample(*wo, numbers(i, 1000 + case as u32));
+                let draw = spread(bsdf, *wo, numbers(i, 1000 + case as u32));
                 let t = f64::from(draw.map_or(0.0, |s| s.throughput.0[c]));
                 sums = (sums.0 + t, sums.1 + t * t);
             }

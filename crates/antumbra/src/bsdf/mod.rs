@@ -14,8 +14,10 @@ mod ggx_albedo;
 mod metal;
 mod metallic_roughness;
 mod mirror;
+mod plastic;
 mod rough_conductor;
 mod rough_dielectric;
+mod rough_plastic;
 mod thin_dielectric;
 
 pub use conductor::Conductor;
@@ -26,8 +28,10 @@ pub use ggx::MIN_ALPHA;
 pub use metal::Metal;
 pub use metallic_roughness::MetallicRoughness;
 pub use mirror::Mirror;
+pub use plastic::{Coat, Plastic};
 pub use rough_conductor::RoughConductor;
 pub use rough_dielectric::RoughDielectric;
+pub use rough_plastic::{RoughCoat, RoughPlastic};
 pub use thin_dielectric::ThinDielectric;
 
 use antumbra_math::{Local, Rgb};
@@ -127,4 +131,6 @@ kinds!(
     Dielectric,
     ThinDielectric,
     RoughDielectric,
+    Plastic,
+    RoughPlastic,
 );

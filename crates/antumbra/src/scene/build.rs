@@ -4,7 +4,7 @@ use antumbra_math::{Transform, Vec3};
 use antumbra_trace::{Pool, Shape, Triangles};
 
 use super::parts::Parts;
-use super::{Body, Level, Material, Mesh, Object, Scene, SceneBuilder, SceneError};
+use super::{Body, Level, Material, Mesh, Message, Object, Scene, SceneBuilder, SceneError, Tangents};
 
 impl SceneBuilder {
     /// Checks everything and builds the tree, in the calling thread.
@@ -17,6 +17,7 @@ impl SceneBuilder {
         self.check_materials()?;
         self.check_meshes()?;
         self.check_objects()?;
+        self.make_tangents();
         self.check_lights();
         self.check_cameras();
         self.add_sky();
@@ -45,7 +46,8 @@ impl SceneBuilder {
                 self.say(Level::Warning, material_place(i, &self.materials[i]), text);
             }
             let m = &self.materials[i];
-            for texture in [m.color, m.metallic_roughness].into_iter().flatten() {
+            let normal = m.normal.map(|map| map.texture);
+            for texture in [m.color, m.metallic_roughness, normal].into_iter().flatten() {
                 if texture as usize >= self.textures.len() {
                     let what = format!("asks for texture {texture} of {}", self.textures.len());
                     return Err(SceneError::new(material_place(i, m), what, ""));
@@ -79,6 +81,7 @@ impl SceneBuilder {
                 ("normals", mesh.normals.as_ref().map(Vec::len)),
                 ("texture coordinates", mesh.uvs[0].as_ref().map(Vec::len)),
                 ("texture coordinates", mesh.uvs[1].as_ref().map(Vec::len)),
+                ("tangents", mesh.tangents.as_ref().and_then(Tangents::vertices)),
                 ("colours", mesh.colors.as_ref().map(Vec::len)),
             ];
             for (what, len) in attributes {
@@ -142,6 +145,27 @@ impl SceneBuilder {
         }
         self.objects = kept;
         Ok(())
+    }
+
+    /// Meshes under a normal map get tangents if they bring none.
+    fn make_tangents(&mut self) {
+        for object in &self.objects {
+            let Body::Mesh(m) = object.body else { continue };
+            let Some(map) = self.materials[object.material as usize].normal else { continue };
+            let mesh = &mut self.meshes[m as usize];
+            if mesh.tangents.is_some() {
+                continue;
+            }
+            let texture = &self.textures[map.texture as usize];
+            // A map that turns v round (OBJ) makes it grow upwards on the mesh.
+            let downwards = texture.map[0] * texture.map[4] - texture.map[1] * texture.map[3] >= 0.0;
+            mesh.tangents = Tangents::made(mesh, texture.uv_set as usize, downwards);
+            if mesh.tangents.is_none() {
+                let place = format!("object \"{}\"", object.name);
+                let text = "has a normal map and no texture coordinates: drawn without it".to_string();
+                self.messages.push(Message { level: Level::Warning, place, text });
+            }
+        }
     }
 
     /// Lights whose numbers make no sense are left out, with a warning.

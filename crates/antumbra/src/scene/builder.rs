@@ -3,7 +3,7 @@
 use antumbra_math::Transform;
 use antumbra_trace::{Shape, Triangles};
 
-use super::{Camera, Level, Material, MaterialId, Message, TextureId};
+use super::{Camera, Level, Material, MaterialId, Message, Tangents, TextureId};
 use crate::light::Light;
 use crate::texture::Texture;
 
@@ -21,6 +21,8 @@ pub struct Mesh {
     pub normals: Option<Vec<[f32; 3]>>,
     /// Texture coordinates, sets 0 and 1.
     pub uvs: [Option<Vec<[f32; 2]>>; 2],
+    /// Where u grows; made by `build` where a normal map asks for it.
+    pub tangents: Option<Tangents>,
     /// Linear colours and alpha that multiply the material's.
     pub colors: Option<Vec<[f32; 4]>>,
 }

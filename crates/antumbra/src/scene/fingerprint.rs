@@ -64,6 +64,7 @@ fn mesh_hash(mesh: &SceneMesh, all: &mut Sum) {
         all.floats(values.as_flattened());
     }
     mesh.normals.iter().for_each(|n| all.floats(n.as_flattened()));
+    mesh.tangents.iter().for_each(|t| all.floats(t.numbers()));
     mesh.colors.iter().for_each(|c| all.floats(c.as_flattened()));
 }
 

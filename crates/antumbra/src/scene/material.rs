@@ -2,7 +2,9 @@
 
 use antumbra_math::Rgb;
 
-use crate::bsdf::{Conductor, Dielectric, Facets, Metal, RoughConductor, RoughDielectric, ThinDielectric};
+use crate::bsdf::{
+    Coat, Conductor, Dielectric, Facets, Metal, RoughCoat, RoughConductor, RoughDielectric, ThinDielectric,
+};
 
 /// Index of a material in its scene.
 pub type MaterialId = u32;
@@ -41,6 +43,20 @@ pub enum Surface {
     ThinDielectric(ThinDielectric),
     /// Ground glass; the colour texture multiplies what it lets through.
     RoughDielectric(RoughDielectric),
+    /// Polished plastic.
+    Plastic {
+        /// Of the base, times the colour texture and the vertex colours.
+        albedo: Rgb,
+        /// The clear coat over it.
+        coat: Coat,
+    },
+    /// Rough plastic.
+    RoughPlastic {
+        /// Of the base, times the colour texture and the vertex colours.
+        albedo: Rgb,
+        /// The clear coat over it.
+        coat: RoughCoat,
+    },
 }
 
 impl Surface {
@@ -50,11 +66,13 @@ impl Surface {
             Surface::Mirror { .. }
             | Surface::Conductor(_)
             | Surface::Dielectric(_)
-            | Surface::ThinDielectric(_) => true,
+            | Surface::ThinDielectric(_)
+            | Surface::Plastic { .. } => true,
             Surface::Diffuse { .. }
             | Surface::MetallicRoughness { .. }
             | Surface::RoughConductor(_)
-            | Surface::RoughDielectric(_) => false,
+            | Surface::RoughDielectric(_)
+            | Surface::RoughPlastic { .. } => false,
         }
     }
 
@@ -92,6 +110,15 @@ pub enum Alpha {
     Blend,
 }
 
+/// A picture of normals in the frame of tangent, bitangent and normal, each component from −1 to 1 over its range.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NormalMap {
+    /// The picture, plain numbers.
+    pub texture: TextureId,
+    /// Factor of the two components along the surface.
+    pub scale: f32,
+}
+
 /// Light that a surface gives off.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Emission {
@@ -112,6 +139,8 @@ pub struct Material {
     pub color: Option<TextureId>,
     /// Texture of metallic (blue) and roughness (green).
     pub metallic_roughness: Option<TextureId>,
+    /// Bends the shading normal.
+    pub normal: Option<NormalMap>,
     /// Light given off.
     pub emission: Option<Emission>,
     /// How alpha is read.
@@ -160,6 +189,15 @@ impl Material {
         Material::of(Surface::ThinDielectric(ThinDielectric::clear(eta)))
     }
 
+    /// Plastic: a polished or rough clear coat over a diffuse base; `eta` = n of the coat over n outside, `nonlinear`: the
+    /// colour deepens with each bounce between coat and base.
+    pub fn plastic(albedo: Rgb, eta: f32, facets: Option<Facets>, nonlinear: bool) -> Material {
+        Material::of(match facets {
+            None => Surface::Plastic { albedo, coat: Coat::new(eta, nonlinear) },
+            Some(facets) => Surface::RoughPlastic { albedo, coat: RoughCoat::new(eta, facets, nonlinear) },
+        })
+    }
+
     /// A black surface that emits from its front.
     pub fn light(radiance: Rgb) -> Material {
         let emission = Some(Emission { radiance, both_sides: false });
@@ -170,7 +208,9 @@ impl Material {
     pub(super) fn tame(&mut self) -> bool {
         let mut any = tame(&mut self.opacity);
         let [first, second] = match &mut self.surface {
-            Surface::Diffuse { albedo } => [Some(albedo), None],
+            Surface::Diffuse { albedo }
+            | Surface::Plastic { albedo, .. }
+            | Surface::RoughPlastic { albedo, .. } => [Some(albedo), None],
             Surface::Mirror { reflectance } => [Some(reflectance), None],
             Surface::MetallicRoughness { base, metallic, roughness } => {
                 any |= tame(metallic) | tame(roughness);
@@ -198,6 +238,7 @@ impl Material {
             surface,
             color: None,
             metallic_roughness: None,
+            normal: None,
             emission: None,
             alpha: Alpha::Opaque,
             one_sided: false,

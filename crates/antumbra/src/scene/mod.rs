@@ -13,11 +13,13 @@ mod parts;
 mod scene;
 mod surface;
 mod suspect;
+mod tangents;
 
 pub use areas::{SurfaceAreas, SurfacePoint};
 pub use builder::{Body, Mesh, MeshId, Object, SceneBuilder};
 pub use camera::{Camera, Projection};
-pub use material::{Alpha, Emission, Material, MaterialId, Surface, TextureId};
+pub use material::{Alpha, Emission, Material, MaterialId, NormalMap, Surface, TextureId};
 pub use message::{Level, Message, SceneError, nearest};
 pub use scene::{Emits, LightNames, Placed, Scene, SceneMesh, SceneVisibility};
 pub use surface::{Look, Met, Start};
+pub use tangents::Tangents;

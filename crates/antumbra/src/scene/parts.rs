@@ -245,11 +245,11 @@ fn emissive_lights(object: &Placed, meshes: &[SceneMesh], radiance: Rgb, both_si
 
 impl From<Mesh> for SceneMesh {
     fn from(mesh: Mesh) -> SceneMesh {
-        let Mesh { name, triangles, normals, uvs, colors } = mesh;
+        let Mesh { name, triangles, normals, uvs, tangents, colors } = mesh;
         // Files give normals of any length; interpolation asks for length 1.
         let unit = |n: [f32; 3]| DVec3::from(n.map(f64::from)).normalize_or_zero().as_vec3().to_array();
         let normals = normals.map(|normals| normals.into_iter().map(unit).collect());
-        SceneMesh { name, triangles: Arc::new(triangles), normals, uvs, colors }
+        SceneMesh { name, triangles: Arc::new(triangles), normals, uvs, tangents, colors }
     }
 }
 
@@ -272,7 +272,12 @@ impl SceneMesh {
             transform.normal(DVec3::from(n.map(f64::from))).normalize_or_zero().as_vec3().to_array()
         };
         let normals = self.normals.map(|normals| normals.into_iter().map(turn).collect());
-        Some(SceneMesh { triangles: Arc::new(triangles), normals, ..self })
+        let along = |[x, y, z, w]: [f32; 4]| {
+            let t = transform.vector(DVec3::new(x.into(), y.into(), z.into())).normalize_or_zero().as_vec3();
+            [t.x, t.y, t.z, if transform.mirrors() { -w } else { w }]
+        };
+        let tangents = self.tangents.map(|tangents| tangents.moved(along, transform.mirrors()));
+        Some(SceneMesh { triangles: Arc::new(triangles), normals, tangents, ..self })
     }
 }
 

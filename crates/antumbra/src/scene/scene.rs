@@ -7,7 +7,7 @@ use antumbra_trace::{
     Bits, Hits, NO_PRIM, Passes, PrimId, Segments, SimdLevel, Triangles, Visibility, World,
 };
 
-use super::{Alpha, Body, Camera, Material, Message};
+use super::{Alpha, Body, Camera, Material, Message, Tangents};
 use crate::light::{Light, LightId};
 use crate::texture::Texture;
 
@@ -22,6 +22,8 @@ pub struct SceneMesh {
     pub normals: Option<Vec<[f32; 3]>>,
     /// Texture coordinates, sets 0 and 1.
     pub uvs: [Option<Vec<[f32; 2]>>; 2],
+    /// Where u grows.
+    pub tangents: Option<Tangents>,
     /// Linear colours and alpha.
     pub colors: Option<Vec<[f32; 4]>>,
 }

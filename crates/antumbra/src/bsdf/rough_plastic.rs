@@ -1,0 +1,179 @@
+//! Rough plastic: a clear coat of facets over a diffuse base, and the light that the coat sends back to the base.
+
+use antumbra_math::{Local, Rgb, Vec3, real, warp};
+
+use super::facets::Facets;
+use super::plastic::{base, internal};
+use super::{BsdfKind, BsdfSample, fresnel};
+use crate::density::Density;
+
+/// Places of μ at which the share reflected is kept.
+const PLACES: usize = 16;
+
+/// A clear coat of facets over a diffuse base.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RoughCoat {
+    /// n of the coat over n outside.
+    eta: f32,
+    facets: Facets,
+    /// E(μ) where √μ is k/15: the share that the facets reflect of light from outside, in parts of 65535.
+    reflected: [u16; PLACES],
+    /// Ē = 2 ∫ E μ dμ.
+    mean: f32,
+    /// R: the share of the base's light that the coat sends back.
+    internal: f32,
+    /// See [`super::Coat::new`].
+    nonlinear: bool,
+}
+
+impl RoughCoat {
+    /// n of the coat over n outside, taken into [0.1, 10], and its facets; `nonlinear`: the colour deepens with each inner
+    /// bounce. What facets do not reflect goes through them: a white base gives back everything.
+    pub fn new(eta: f32, facets: Facets, nonlinear: bool) -> RoughCoat {
+        let eta = fresnel::index(eta);
+        let share = |k: usize| {
+            let x = k as f32 / (PLACES - 1) as f32;
+            (shared(facets, eta, (x * x).max(1e-4)) * 65535.0 + 0.5) as u16
+        };
+        let reflected = std::array::from_fn(share);
+        let coat = RoughCoat { eta, facets, reflected, mean: 0.0, internal: 0.0, nonlinear };
+        let n = 256;
+        let mean = (0..n).map(|i| coat.share(((i as f32 + 0.5) / n as f32).sqrt()) / n as f32).sum();
+        RoughCoat { mean, internal: internal(mean, eta), ..coat }
+    }
+
+    /// The same with R of facets seen from inside that reflect once, as Mitsuba 3 draws it: light that bounces between
+    /// facets is taken for light that left, and the base comes out darker (white: 7 % at α = 0.1, 18 % at 0.2).
+    pub fn losing(self) -> RoughCoat {
+        let n = 64;
+        let share = |i: usize| shared(self.facets, 1.0 / self.eta, ((i as f32 + 0.5) / n as f32).sqrt());
+        RoughCoat { internal: (0..n).map(share).sum::<f32>() / n as f32, ..self }
+    }
+
+    /// E(μ): a cubic through the four nearest places.
+    #[inline]
+    fn share(&self, mu: f32) -> f32 {
+        let x = mu.clamp(0.0, 1.0).sqrt() * (PLACES - 1) as f32;
+        let first = (x as usize).clamp(1, PLACES - 3) - 1;
+        let t = x - (first + 1) as f32;
+        let at = |k: usize| f32::from(self.reflected[first + k]);
+        let (down, up) = (t * (t - 1.0), (t + 1.0) * (t - 2.0));
+        let sum = at(0) * (-down * (t - 2.0) / 6.0) + at(1) * (up * (t - 1.0) / 2.0) - at(2) * (up * t / 2.0)
+            + at(3) * (down * (t + 1.0) / 6.0);
+        (sum / 65535.0).clamp(0.0, 1.0)
+    }
+}
+
+/// The share that facets reflect of light from cosine `mu`: the mean of F G₁(ω_i) over visible facets, by midpoints.
+fn shared(facets: Facets, eta: f32, mu: f32) -> f32 {
+    let (turns, rings) = (16, 48);
+    let wo = Local(Vec3::new(real::safe_sqrt((1.0 - mu) * (1.0 + mu)), 0.0, mu));
+    let mut sum = 0.0;
+    for i in 0..turns * rings {
+        // Half a turn: the other half is its mirror image.
+        let u = [0.5 * ((i % turns) as f32 + 0.5) / turns as f32, ((i / turns) as f32 + 0.5) / rings as f32];
+        let m = facets.sample(wo, u);
+        let om = wo.0.dot(m);
+        let wi = Local(m * (2.0 * om) - wo.0);
+        if wi.cos() > 0.0 {
+            sum += fresnel::dielectric(om.clamp(0.0, 1.0), eta).reflected * facets.seen(wi) * wi.cos();
+        }
+    }
+    sum / (turns * rings) as f32
+}
+
+/// f = F D G₁G₁ / (4 μ_o μ_i) + T(ω_o) T(ω_i) ρ / (π η² (1 − ρ R)), T = 1 − E, R = 1 − (1−Ē)/η².
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RoughPlastic {
+    coat: RoughCoat,
+    /// ρ / (π η² (1 − ρ R)).
+    base: Rgb,
+}
+
+impl RoughPlastic {
+    /// A coat over a base of albedo ρ in [0, 1].
+    pub fn new(coat: RoughCoat, albedo: Rgb) -> RoughPlastic {
+        RoughPlastic { coat, base: base(albedo, coat.eta, coat.internal, coat.nonlinear) }
+    }
+
+    /// f for directions above the horizon; `through_o` = T(ω_o).
+    #[inline]
+    fn reflected(&self, wo: Local, wi: Local, through_o: f32) -> Rgb {
+        let v = wo.0 + wi.0;
+        let facets = self.coat.facets;
+        let fresnel = fresnel::dielectric((0.5 * v.length()).min(1.0), self.coat.eta).reflected;
+        let glossy = 0.25 * fresnel * facets.d(v) * (facets.seen(wo) * facets.seen(wi));
+        Rgb::grey(glossy) + self.base * (through_o * (1.0 - self.coat.share(wi.cos())))
+    }
+
+    /// Probability of the facets' lobe: the share of light that it carries.
+    #[inline]
+    fn glossy(&self, through_o: f32) -> f32 {
+        let reflected = (1.0 - through_o).max(1e-6);
+        let spread = through_o * self.base.mean() * real::PI * (1.0 - self.coat.mean);
+        reflected / (reflected + spread)
+    }
+
+    #[inline]
+    fn density(&self, wo: Local, wi: Local, glossy: f32) -> f32 {
+        let facets = self.coat.facets;
+        let of_facets = 0.25 * facets.d(wo.0 + wi.0) * facets.seen(wo);
+        glossy * of_facets + (1.0 - glossy) * wi.cos() * real::INV_PI
+    }
+}
+
+impl BsdfKind for RoughPlastic {
+    #[inline]
+    fn eval(&self, wo: Local, wi: Local) -> Rgb {
+        if wo.cos() <= 0.0 || wi.cos() <= 0.0 {
+            return Rgb::BLACK;
+        }
+        self.reflected(wo, wi, 1.0 - self.coat.share(wo.cos()))
+    }
+
+    /// A visible facet's mirrored direction, or about the normal with cosine density; the density is of both.
+    #[inline]
+    fn sample(&self, wo: Local, u: [f32; 3]) -> Option<BsdfSample> {
+        if wo.cos() <= 0.0 {
+            return None;
+        }
+        let through_o = 1.0 - self.coat.share(wo.cos());
+        let glossy = self.glossy(through_o);
+        let wi = if u[2] < glossy {
+            let m = self.coat.facets.sample(wo, [u[0], u[1]]);
+            Local((m * (2.0 * wo.0.dot(m)) - wo.0).normalize())
+        } else {
+            warp::cosine_hemisphere([u[0], u[1]])
+        };
+        let pdf = self.density(wo, wi, glossy);
+        if wi.cos() <= 0.0 || pdf <= 0.0 {
+            return None;
+        }
+        let throughput = self.reflected(wo, wi, through_o) * (wi.cos() / pdf);
+        Some(BsdfSample { wi, throughput, density: Density::SolidAngle(pdf) })
+    }
+
+    #[inline]
+    fn pdf(&self, wo: Local, wi: Local) -> f32 {
+        if wo.cos() <= 0.0 || wi.cos() <= 0.0 {
+            return 0.0;
+        }
+        self.density(wo, wi, self.glossy(1.0 - self.coat.share(wo.cos())))
+    }
+
+    fn albedo(&self) -> Rgb {
+        let through = 1.0 - self.coat.mean;
+        Rgb::grey(self.coat.mean) + self.base * (real::PI * through * through)
+    }
+
+    fn examples() -> Vec<RoughPlastic> {
+        let coat = |eta, alpha| RoughCoat::new(eta, Facets::isotropic(alpha), true);
+        vec![
+            RoughPlastic::new(coat(1.5, 0.05), Rgb::WHITE),
+            RoughPlastic::new(coat(1.5, 0.3), Rgb::WHITE),
+            RoughPlastic::new(coat(1.9, 1.0), Rgb([1.0, 0.5, 0.0])),
+            RoughPlastic::new(coat(1.5, 0.2).losing(), Rgb([1.0, 0.5, 0.1])),
+            RoughPlastic::new(RoughCoat { nonlinear: false, ..coat(1.5, 0.1) }, Rgb([1.0, 0.5, 0.1])),
+        ]
+    }
+}
