@@ -73,7 +73,11 @@ class Conductor:
     def fields(self) -> Fields:
         """Its numbers by name."""
         eta, k = _metal(self.metal) if isinstance(self.metal, str) else self.metal
-        return {"eta": color("eta", eta), "k": color("k", k), "roughness": [fraction("roughness", self.roughness)]}
+        return {
+            "eta": color("eta", eta),
+            "k": color("k", k),
+            "roughness": [fraction("roughness", self.roughness)],
+        }
 
 
 @dataclass(frozen=True)
@@ -88,7 +92,10 @@ class Dielectric:
 
     def fields(self) -> Fields:
         """Its numbers by name."""
-        return {"ior": [within("ior", self.ior, 0.1, 10.0)], "roughness": [fraction("roughness", self.roughness)]}
+        return {
+            "ior": [within("ior", self.ior, 0.1, 10.0)],
+            "roughness": [fraction("roughness", self.roughness)],
+        }
 
 
 @dataclass(frozen=True)
@@ -141,5 +148,3 @@ def _metal(name: str) -> tuple[list[float], list[float]]:
         symbols = ", ".join(symbol for symbol, _, _ in known)
         raise ValueError(f'there is no metal "{name}"; there are: {symbols}')
     return found
-
-

@@ -7,7 +7,7 @@ use std::collections::HashMap;
 use antumbra::light::Light;
 use antumbra::scene::{Alpha, Body, Level, SceneBuilder, Surface};
 use antumbra_io::{Format, Limits, MemoryFiles, ReadError, read};
-use antumbra_math::{DVec3, World};
+use antumbra_math::{DVec3, Rgb, World};
 
 /// Lists of numbers that become buffer views and accessors.
 #[derive(Default)]
@@ -168,8 +168,9 @@ fn materials_say_what_they_cannot_show_once() {
             r#"{ONE_NODE}"extensionsUsed":["KHR_materials_unlit","KHR_materials_emissive_strength","EXT_odd"],
             "meshes":[{{"primitives":[{}]}}],
             "materials":[
-                {{"name":"a","extensions":{{"KHR_materials_unlit":{{}}}},"alphaMode":"MASK","alphaCutoff":0.25}},
-                {{"name":"b","extensions":{{"KHR_materials_unlit":{{}}}},"alphaMode":"BLEND",
+                {{"name":"a","extensions":{{"KHR_materials_unlit":{{}},"KHR_materials_sheen":{{}}}},"alphaMode":"MASK",
+                  "alphaCutoff":0.25}},
+                {{"name":"b","extensions":{{"KHR_materials_ior":{{"ior":1.33}},"KHR_materials_sheen":{{}}}},"alphaMode":"BLEND",
                   "pbrMetallicRoughness":{{"baseColorFactor":[0.1,0.2,0.3,0.4],"metallicFactor":0,"roughnessFactor":0.5}}}},
                 {{"emissiveFactor":[1,0.5,0],"doubleSided":true,
                   "extensions":{{"KHR_materials_emissive_strength":{{"emissiveStrength":10}}}}}}]"#,
@@ -178,8 +179,14 @@ fn materials_say_what_they_cannot_show_once() {
         .unwrap();
     assert_eq!(s.materials[0].alpha, Alpha::Mask { cutoff: 0.25 });
     assert_eq!((s.materials[1].alpha, s.materials[1].opacity), (Alpha::Blend, 0.4));
-    let Surface::MetallicRoughness { base, metallic, roughness } = s.materials[1].surface else { panic!() };
+    let Surface::MetallicRoughness { base, metallic, roughness, f0 } = s.materials[1].surface else {
+        panic!()
+    };
     assert_eq!((base.0, metallic, roughness), ([0.1, 0.2, 0.3], 0.0, 0.5));
+    // ((1.33 − 1)/(1.33 + 1))².
+    assert!((f0 - 0.02006).abs() < 1e-5);
+    let Surface::Unlit { color } = s.materials[0].surface else { panic!() };
+    assert_eq!(color, Rgb::WHITE);
     let e = s.materials[2].emission.unwrap();
     assert_eq!((e.radiance.0, e.both_sides), ([10.0, 5.0, 0.0], true));
     let said: Vec<_> = s.messages.iter().map(|m| format!("{}: {}", m.place, m.text)).collect();
@@ -207,3 +214,42 @@ fn hidden_nodes_and_unknown_extensions() {
         format!(r#"{ONE_NODE}"extensionsRequired":["KHR_materials_clearcoat","KHR_texture_basisu"],{PLAIN}"#);
     assert_eq!(made.read(&looks).unwrap().messages.len(), 1);
 }
+
+#[test]
+fn glass_and_normal_maps() {
+    let mut made = Made::default();
+    made.floats("VEC3", 3, &TRIANGLE);
+    made.floats("VEC3", 3, &[0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0]);
+    made.floats("VEC2", 3, &[0.0, 1.0, 1.0, 1.0, 0.0, 0.0]);
+    made.floats("VEC4", 3, &[1.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 1.0]);
+    let attributes = r#"{"POSITION":0,"NORMAL":1,"TEXCOORD_0":2,"TANGENT":3}"#;
+    let primitives: Vec<_> =
+        (0..4).map(|m| format!(r#"{{"attributes":{attributes},"material":{m}}}"#)).collect();
+    let glass = r#""KHR_materials_transmission":{"transmissionFactor":1}"#;
+    let smooth = r#""pbrMetallicRoughness":{"metallicFactor":0,"roughnessFactor":0}"#;
+    let s = made
+        .read(&format!(
+            r#"{ONE_NODE}"meshes":[{{"primitives":[{}]}}],
+            "images":[{{"uri":"data:image/png;base64,{PIXEL}"}}],"textures":[{{"source":0}}],
+            "materials":[
+                {{"normalTexture":{{"index":0,"scale":0.5}}}},
+                {{{smooth},"extensions":{{{glass}}}}},
+                {{{smooth},"extensions":{{{glass},"KHR_materials_volume":{{"thicknessFactor":1}}}}}},
+                {{"pbrMetallicRoughness":{{"metallicFactor":0,"roughnessFactor":0.5,"baseColorFactor":[1,0.5,0,1]}},
+                  "extensions":{{{glass},"KHR_materials_volume":{{"thicknessFactor":1}},
+                  "KHR_materials_ior":{{"ior":2}}}}}}]"#,
+            primitives.join(",")
+        ))
+        .unwrap();
+    assert!(s.messages.is_empty(), "{:?}", s.messages);
+    assert_eq!(s.materials[0].normal.map(|map| map.scale), Some(0.5));
+    assert!(s.meshes[0].tangents.is_some());
+    assert!(matches!(s.materials[1].surface, Surface::ThinDielectric(_)));
+    assert!(matches!(s.materials[2].surface, Surface::Dielectric(_)));
+    let Surface::RoughDielectric(ground) = s.materials[3].surface else { panic!() };
+    assert_eq!(ground.transmittance.0, [1.0, 0.5, 0.0]);
+}
+
+/// A white PNG of one pixel.
+const PIXEL: &str =
+    "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mP8/5+hHgAHggJ/PchI7wAAAABJRU5ErkJggg==";

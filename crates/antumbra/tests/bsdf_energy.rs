@@ -127,20 +127,17 @@ fn a_white_dielectric_is_a_white_furnace() {
 }
 
 #[test]
-fn white_metal_loses_only_what_bounces_between_facets() {
-    let white = |roughness| Bsdf::MetallicRoughness(MetallicRoughness::new(Rgb::WHITE, 1.0, roughness));
-    // Smooth: facets of slope 10⁻³ shade each other only at angles of that order.
-    for cos in COSINES.into_iter().filter(|&c| c >= 0.1) {
-        let a = albedo(&white(0.0), cos, 0);
-        assert!((a - 1.0).abs() <= QUADRATURE, "cos {cos}: {a}");
+fn white_metal_is_a_white_furnace() {
+    // Light that bounces between facets leaves in the end: albedo 1 at every roughness and angle. The share at F = 1 is
+    // tabulated to twice the error of that at F0 = 0.04; below a loss of 10⁻³ nothing is given back.
+    for roughness in [0.0, 0.2, 0.4, 0.6, 0.8, 1.0] {
+        let bsdf = Bsdf::MetallicRoughness(MetallicRoughness::new(Rgb::WHITE, 1.0, roughness));
+        for cos in COSINES.into_iter().filter(|&c| roughness > 0.0 || c >= 0.1) {
+            let a = albedo(&bsdf, cos, 0);
+            let off = (a - 1.0).abs();
+            assert!(off <= QUADRATURE + 2.0 * table(cos) + 1e-3, "roughness {roughness} cos {cos}: {a}");
+        }
     }
-    // α = 1, straight on: D = 1/π, G₂/(4 μ_o μ_i) = 1/(2 (1 + μ)), so albedo = ∫ μ/(1 + μ) dμ = 1 − ln 2.
-    let a = albedo(&white(1.0), 1.0, 0);
-    assert!((a - (1.0 - std::f64::consts::LN_2)).abs() <= QUADRATURE, "{a}");
-    // The loss grows with roughness.
-    let straight: Vec<f64> =
-        [0.0, 0.2, 0.4, 0.6, 0.8, 1.0].iter().map(|&r| albedo(&white(r), 0.9, 0)).collect();
-    assert!(straight.windows(2).all(|w| w[1] <= w[0] + 2.0 * QUADRATURE), "{straight:?}");
 }
 
 #[test]

@@ -278,6 +278,14 @@ mod tests {
     }
 
     #[test]
+    fn straight_on_at_full_width() {
+        // α = 1: D = 1/π, G₂/(4 μ_o μ_i) = 1/(2 (1 + μ)), so facets that reflect all light give back
+        // ∫ μ/(1 + μ) dμ = 1 − ln 2. The quadrature's own error is the tolerance of the test above.
+        let (scale, bias) = share(1.0, 1.0, &azimuths());
+        assert!((scale + bias - (1.0 - std::f64::consts::LN_2)).abs() < 4e-3, "{}", scale + bias);
+    }
+
+    #[test]
     fn the_table_follows_the_quadrature() {
         let azimuths = azimuths();
         let mut worst = [0.0f64; 2];

@@ -32,6 +32,13 @@ pub enum Surface {
         metallic: f32,
         /// Perceptual roughness, α = roughness²; times the green of the metallic-roughness texture.
         roughness: f32,
+        /// Share reflected straight on where it is not metal: 0.04 for the index of refraction 1.5.
+        f0: f32,
+    },
+    /// Shows its colour as radiance where the sensor looks, whatever the light, and reflects none.
+    Unlit {
+        /// Times the colour texture and the vertex colours.
+        color: Rgb,
     },
     /// Polished metal; the colour texture multiplies its reflectance.
     Conductor(Conductor),
@@ -69,10 +76,34 @@ impl Surface {
             | Surface::ThinDielectric(_)
             | Surface::Plastic { .. } => true,
             Surface::Diffuse { .. }
+            | Surface::Unlit { .. }
             | Surface::MetallicRoughness { .. }
             | Surface::RoughConductor(_)
             | Surface::RoughDielectric(_)
             | Surface::RoughPlastic { .. } => false,
+        }
+    }
+
+    /// Gives it a colour: its albedo, reflectance, or what it lets through.
+    pub fn tint(&mut self, by: Rgb) {
+        let color = self.colors().0;
+        *color = by;
+    }
+
+    /// The colour that textures multiply, and a second one.
+    fn colors(&mut self) -> (&mut Rgb, Option<&mut Rgb>) {
+        match self {
+            Surface::Diffuse { albedo }
+            | Surface::Unlit { color: albedo }
+            | Surface::Plastic { albedo, .. }
+            | Surface::RoughPlastic { albedo, .. } => (albedo, None),
+            Surface::Mirror { reflectance } => (reflectance, None),
+            Surface::MetallicRoughness { base, .. } => (base, None),
+            Surface::Conductor(c) => (&mut c.reflectance, None),
+            Surface::RoughConductor(c) => (&mut c.reflectance, None),
+            Surface::Dielectric(d) => (&mut d.transmittance, Some(&mut d.reflectance)),
+            Surface::ThinDielectric(d) => (&mut d.transmittance, Some(&mut d.reflectance)),
+            Surface::RoughDielectric(d) => (&mut d.transmittance, Some(&mut d.reflectance)),
         }
     }
 
@@ -164,7 +195,7 @@ impl Material {
 
     /// A metallic-roughness surface.
     pub fn metallic_roughness(base: Rgb, metallic: f32, roughness: f32) -> Material {
-        Material::of(Surface::MetallicRoughness { base, metallic, roughness })
+        Material::of(Surface::MetallicRoughness { base, metallic, roughness, f0: 0.04 })
     }
 
     /// Metal, polished or with facets.
@@ -207,22 +238,11 @@ impl Material {
     /// Takes every factor into [0, 1]; says whether one had to be.
     pub(super) fn tame(&mut self) -> bool {
         let mut any = tame(&mut self.opacity);
-        let [first, second] = match &mut self.surface {
-            Surface::Diffuse { albedo }
-            | Surface::Plastic { albedo, .. }
-            | Surface::RoughPlastic { albedo, .. } => [Some(albedo), None],
-            Surface::Mirror { reflectance } => [Some(reflectance), None],
-            Surface::MetallicRoughness { base, metallic, roughness } => {
-                any |= tame(metallic) | tame(roughness);
-                [Some(base), None]
-            }
-            Surface::Conductor(c) => [Some(&mut c.reflectance), None],
-            Surface::RoughConductor(c) => [Some(&mut c.reflectance), None],
-            Surface::Dielectric(d) => [Some(&mut d.reflectance), Some(&mut d.transmittance)],
-            Surface::ThinDielectric(d) => [Some(&mut d.reflectance), Some(&mut d.transmittance)],
-            Surface::RoughDielectric(d) => [Some(&mut d.reflectance), Some(&mut d.transmittance)],
-        };
-        let colors = [first, second].into_iter().flatten();
+        if let Surface::MetallicRoughness { metallic, roughness, f0, .. } = &mut self.surface {
+            any |= tame(metallic) | tame(roughness) | tame(f0);
+        }
+        let (first, second) = self.surface.colors();
+        let colors = std::iter::once(first).chain(second);
         colors.flat_map(|color| &mut color.0).for_each(|c| any |= tame(c));
         any
     }

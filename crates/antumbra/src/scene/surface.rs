@@ -3,7 +3,7 @@
 use antumbra_math::{DVec3, Frame, Rgb, Vec3, World};
 use antumbra_trace::{NO_PRIM, PrimId, Shape, start};
 
-use super::{Body, Placed, Scene, SceneMesh, Surface, Tangents};
+use super::{Body, Placed, Scene, SceneMesh, Surface, Tangents, TextureId};
 use crate::bsdf::{Bsdf, Diffuse, MetallicRoughness, Mirror, Plastic, RoughPlastic};
 use crate::light::LightId;
 use crate::receiver::Receiver;
@@ -36,6 +36,8 @@ pub struct Met {
     pub receiver: Receiver,
     /// L_e toward where the ray came from, and the light it belongs to.
     pub emitted: Option<(LightId, Rgb)>,
+    /// The colour of an unlit surface: radiance for the sensor alone.
+    pub shown: Rgb,
 }
 
 /// A point of a primitive with its outward unit normal, in f64.
@@ -81,7 +83,8 @@ impl Scene {
         };
         let light = self.light_of(object, local);
         let emitted = light.map(|id| (id, self.lights()[id as usize].emitted(-wo, front)));
-        Met { receiver, emitted: emitted.filter(|(_, l)| !l.is_black()) }
+        let shown = self.shown(object, local, uv, look);
+        Met { receiver, emitted: emitted.filter(|(_, l)| !l.is_black()), shown }
     }
 
     fn place(&self, object: &Placed, local: u32, p: DVec3, uv: [f32; 2]) -> Place {
@@ -124,21 +127,34 @@ impl Scene {
         if material.one_sided && !front {
             return Bsdf::Diffuse(Diffuse { albedo: Rgb::BLACK });
         }
-        let mesh = match object.body {
-            Body::Mesh(m) => Some(&self.meshes[m as usize]),
+        let metal_rough = || self.texel(object, material.metallic_roughness, local, uv).unwrap_or([1.0; 4]);
+        reflection(&material.surface, front, |c| self.tinted(c, object, local, uv), metal_rough)
+    }
+
+    /// A texture at a point of a mesh.
+    fn texel(&self, object: &Placed, id: Option<TextureId>, local: u32, uv: [f32; 2]) -> Option<[f32; 4]> {
+        let Body::Mesh(mesh) = object.body else { return None };
+        let texture = &self.textures[id? as usize];
+        Some(texture.at(self.meshes[mesh as usize].uv_at(texture.uv_set, local, uv)))
+    }
+
+    /// A colour times the material's texture and the vertex colours.
+    fn tinted(&self, c: Rgb, object: &Placed, local: u32, uv: [f32; 2]) -> Rgb {
+        let material = &self.materials[object.material as usize];
+        let white = |c: Option<[f32; 4]>| c.map_or(Rgb::WHITE, |c| Rgb([c[0], c[1], c[2]]));
+        let vertex = match object.body {
+            Body::Mesh(m) => self.meshes[m as usize].color_at(local, uv),
             Body::Shape(_) => None,
         };
-        let texel = |id: Option<u32>| {
-            let texture = &self.textures[id? as usize];
-            Some(texture.at(mesh?.uv_at(texture.uv_set, local, uv)))
-        };
-        let tint = |c: Rgb| {
-            let texel = texel(material.color).map_or(Rgb::WHITE, |t| Rgb([t[0], t[1], t[2]]));
-            let vertex =
-                mesh.and_then(|m| m.color_at(local, uv)).map_or(Rgb::WHITE, |c| Rgb([c[0], c[1], c[2]]));
-            c * texel * vertex
-        };
-        reflection(&material.surface, front, tint, || texel(material.metallic_roughness).unwrap_or([1.0; 4]))
+        c * white(self.texel(object, material.color, local, uv)) * white(vertex)
+    }
+
+    /// What an unlit surface shows to the sensor.
+    fn shown(&self, object: &Placed, local: u32, uv: [f32; 2], look: &Look) -> Rgb {
+        match self.materials[object.material as usize].surface {
+            Surface::Unlit { color } if look.clay.is_none() => self.tinted(color, object, local, uv),
+            _ => Rgb::BLACK,
+        }
     }
 }
 
@@ -218,9 +234,12 @@ fn reflection(
     match *surface {
         Surface::Diffuse { albedo } => Bsdf::Diffuse(Diffuse { albedo: tint(albedo) }),
         Surface::Mirror { reflectance } => Bsdf::Mirror(Mirror { reflectance: tint(reflectance) }),
-        Surface::MetallicRoughness { base, metallic, roughness } => {
+        // Its colour is shown by `shown`.
+        Surface::Unlit { .. } => Bsdf::Diffuse(Diffuse { albedo: Rgb::BLACK }),
+        Surface::MetallicRoughness { base, metallic, roughness, f0 } => {
             let [_, green, blue, _] = metal_rough();
-            Bsdf::MetallicRoughness(MetallicRoughness::new(tint(base), metallic * blue, roughness * green))
+            let (metallic, roughness) = (metallic * blue, roughness * green);
+            Bsdf::MetallicRoughness(MetallicRoughness::of_index(tint(base), metallic, roughness, f0))
         }
         Surface::Conductor(mut c) => {
             c.reflectance = tint(c.reflectance);

@@ -148,6 +148,9 @@ impl Sensor for CameraSensor {
             if let (Some((_, radiance)), Seen::Light) = (met.emitted, looking.seen) {
                 note_light(film, cell, radiance);
             }
+            if !met.shown.is_black() && looking.seen == Seen::Light {
+                note_light(film, cell, met.shown);
+            }
             let receiver = Receiver { cell, stream: stream_of(pixel_of(cell)), index, ..met.receiver };
             note_surface(film, &receiver, hits.t[i] as f32);
             out.push(receiver);

@@ -193,6 +193,8 @@ pub(super) struct TextureInfo {
     pub index: usize,
     #[serde(default)]
     pub tex_coord: u32,
+    /// Of normal maps.
+    pub scale: Option<f32>,
     #[serde(default)]
     pub extensions: TextureInfoExtensions,
 }

@@ -1,8 +1,10 @@
-//! Materials: metallic-roughness with its textures, emission, alpha; one warning for each look that is left out.
+//! Materials: metallic-roughness with its textures and normal map, glass, unlit, emission, alpha; one warning for each
+//! look that is left out.
 
 use std::collections::HashMap;
 
-use antumbra::scene::{Alpha, Emission, Material, MaterialId, Surface};
+use antumbra::bsdf::Facets;
+use antumbra::scene::{Alpha, Emission, Material, MaterialId, NormalMap, Surface};
 use antumbra_math::Rgb;
 use serde::Deserialize;
 
@@ -31,6 +33,21 @@ impl Default for SpecularGlossiness {
     }
 }
 
+/// KHR_materials_transmission.
+#[derive(Default, Deserialize)]
+#[serde(default, rename_all = "camelCase")]
+struct Transmission {
+    transmission_factor: f32,
+    transmission_texture: Option<TextureInfo>,
+}
+
+/// KHR_materials_ior; 1.5 where it is not given or makes no sense.
+fn index_of_refraction(m: &GltfMaterial) -> f32 {
+    let given = m.extensions.get("KHR_materials_ior").and_then(|e| e.get("ior")?.as_f64());
+    given.filter(|n| (1.0..=10.0).contains(n)).unwrap_or(1.5) as f32
+}
+
+const UNLIT: &str = "KHR_materials_unlit";
 const GLOSSINESS: &str = "KHR_materials_pbrSpecularGlossiness";
 
 impl Reader<'_> {
@@ -61,29 +78,82 @@ impl Reader<'_> {
         let place = format!("material {}", named(index, &m.name));
         self.name_the_missing(m, &place);
         let base = match m.extensions.get(GLOSSINESS).map(SpecularGlossiness::deserialize) {
+            _ if m.extensions.contains_key(UNLIT) => self.unlit(m),
             Some(Ok(glossy)) => self.diffuse_part(&glossy),
             Some(Err(e)) => {
                 self.said.warn(place.clone(), format!("{GLOSSINESS} is broken ({e}): drawn without it"));
-                self.metallic_roughness(m)
+                self.metallic_roughness(m, &place)
             }
-            None => self.metallic_roughness(m),
+            None => self.metallic_roughness(m, &place),
         };
         let alpha = match m.alpha_mode.as_str() {
             "MASK" => Alpha::Mask { cutoff: m.alpha_cutoff },
             "BLEND" => Alpha::Blend,
             _ => Alpha::Opaque,
         };
-        Material { name: m.name.clone(), emission: self.emission(m, &place), alpha, ..base }
+        let normal = m.normal_texture.as_ref().and_then(|info| {
+            let texture = self.texture(info, false)?;
+            Some(NormalMap { texture, scale: info.scale.filter(|s| s.is_finite()).unwrap_or(1.0) })
+        });
+        Material { name: m.name.clone(), emission: self.emission(m, &place), alpha, normal, ..base }
     }
 
-    fn metallic_roughness(&mut self, m: &GltfMaterial) -> Material {
+    fn metallic_roughness(&mut self, m: &GltfMaterial, place: &str) -> Material {
         let pbr = &m.pbr_metallic_roughness;
         let [r, g, b, a] = pbr.base_color_factor;
         let base = Rgb::new(r, g, b);
         let color = pbr.base_color_texture.as_ref().and_then(|t| self.texture(t, true));
         let mr = pbr.metallic_roughness_texture.as_ref().and_then(|t| self.texture(t, false));
-        let surface = Material::metallic_roughness(base, pbr.metallic_factor, pbr.roughness_factor);
-        Material { color, metallic_roughness: mr, opacity: a, ..surface }
+        let ior = index_of_refraction(m);
+        let surface = self.glass(m, ior, place).unwrap_or(Surface::MetallicRoughness {
+            base,
+            metallic: pbr.metallic_factor,
+            roughness: pbr.roughness_factor,
+            f0: ((ior - 1.0) / (ior + 1.0)) * ((ior - 1.0) / (ior + 1.0)),
+        });
+        Material { surface, color, metallic_roughness: mr, opacity: a, ..Material::diffuse(base) }
+    }
+
+    /// KHR_materials_unlit: the base colour as it is.
+    fn unlit(&mut self, m: &GltfMaterial) -> Material {
+        let pbr = &m.pbr_metallic_roughness;
+        let [r, g, b, a] = pbr.base_color_factor;
+        let color = pbr.base_color_texture.as_ref().and_then(|t| self.texture(t, true));
+        let surface = Surface::Unlit { color: Rgb::new(r, g, b) };
+        Material { surface, color, opacity: a, ..Material::diffuse(Rgb::BLACK) }
+    }
+
+    /// KHR_materials_transmission: glass where more than half of the light goes through; a body if it has a volume, else a
+    /// pane.
+    fn glass(&mut self, m: &GltfMaterial, ior: f32, place: &str) -> Option<Surface> {
+        let Ok(through) = Transmission::deserialize(m.extensions.get("KHR_materials_transmission")?) else {
+            self.said.warn(place, "KHR_materials_transmission is broken: drawn opaque");
+            return None;
+        };
+        let mean = through.transmission_texture.and_then(|info| self.image_of(&info, false));
+        let share = through.transmission_factor * mean.map_or(1.0, |image| image.mean().0[0]);
+        let pbr = &m.pbr_metallic_roughness;
+        if share < 0.5 || pbr.metallic_factor >= 0.5 && pbr.metallic_roughness_texture.is_none() {
+            if share > 0.0 {
+                self.said.note(place, "lets a part of the light through: drawn opaque");
+            }
+            return None;
+        }
+        let volume = m.extensions.get("KHR_materials_volume");
+        let thickness = volume.and_then(|v| v.get("thicknessFactor")?.as_f64()).unwrap_or(0.0);
+        let roughness = pbr.roughness_factor;
+        let facets = (roughness > 0.03).then(|| Facets::isotropic(roughness * roughness));
+        let [r, g, b, _] = pbr.base_color_factor;
+        let mut surface = if thickness > 0.0 {
+            Material::dielectric(ior, facets).surface
+        } else {
+            if facets.is_some() {
+                self.said.note(place, "is a rough pane of glass: drawn clear");
+            }
+            Material::thin_dielectric(ior).surface
+        };
+        surface.tint(Rgb::new(r, g, b));
+        Some(surface)
     }
 
     fn diffuse_part(&mut self, glossy: &SpecularGlossiness) -> Material {
@@ -120,15 +190,13 @@ impl Reader<'_> {
         for name in m.extensions.keys() {
             let how = match name.as_str() {
                 "KHR_materials_emissive_strength" | "KHR_materials_variants" => continue,
+                "KHR_materials_transmission" | "KHR_materials_ior" | UNLIT => continue,
+                "KHR_materials_volume" if m.extensions[name].get("attenuationColor").is_none() => continue,
+                "KHR_materials_volume" => "drawn without the colour of its depth",
                 GLOSSINESS => "drawn with its diffuse part only",
-                "KHR_materials_unlit" => "drawn as lit",
-                "KHR_materials_transmission" | "KHR_materials_volume" => "drawn opaque",
                 _ => "drawn without it",
             };
             self.said.warn(place, format!("asks for {name}, which antumbra does not have: {how}"));
-        }
-        if m.normal_texture.is_some() {
-            self.said.warn(place, "asks for a normalTexture, which antumbra does not have: drawn without it");
         }
     }
 }

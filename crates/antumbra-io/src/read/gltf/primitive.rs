@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, HashMap};
 
-use antumbra::scene::{Mesh, MeshId};
+use antumbra::scene::{Mesh, MeshId, Tangents};
 use antumbra_trace::Triangles;
 
 use super::Reader;
@@ -111,9 +111,27 @@ impl Reader<'_> {
             self.attribute(p, "TEXCOORD_0", n, |r, i| r.accessors.floats::<2>(i, pick))?,
             self.attribute(p, "TEXCOORD_1", n, |r, i| r.accessors.floats::<2>(i, pick))?,
         ];
+        let tangents = self.tangents(p, key, n, pick)?;
         let colors = self.attribute(p, "COLOR_0", n, |r, i| r.colors(i, pick))?;
         let triangles = Triangles { vertices, indices };
-        Ok(Some(Mesh { name: name.into(), triangles, normals, uvs, colors }))
+        Ok(Some(Mesh { name: name.into(), triangles, normals, uvs, tangents, colors }))
+    }
+
+    /// The tangents that the file gives, where a normal map asks for them; those of bent meshes are made anew.
+    fn tangents(
+        &mut self,
+        p: &Primitive,
+        key: &Key,
+        n: u64,
+        pick: Pick,
+    ) -> Result<Option<Tangents>, ReadError> {
+        let material = p.material.and_then(|i| self.doc.materials.get(i));
+        let mapped = material.is_some_and(|m| m.normal_texture.is_some());
+        if !mapped || key.skin.is_some() || !key.targets.is_empty() || !p.attributes.contains_key("NORMAL") {
+            return Ok(None);
+        }
+        let values = self.attribute(p, "TANGENT", n, |r, i| r.accessors.floats::<4>(i, pick))?;
+        Ok(values.map(Tangents::of_vertices))
     }
 
     /// An attribute with one value a vertex; left out with a warning if its count is another.
