@@ -60,7 +60,7 @@ class MetallicRoughness(Described):
 
 
 @dataclass(frozen=True)
-class Conductor:
+class Conductor(Described):
     """A metal that reflects by Fresnel's equations, polished or of GGX facets.
 
     `metal`: a chemical symbol (Ag, Al, Au, Be, Cr, Cu, Hg, Ir, K, Li, Mo, Na, Nb, Ni, Rh, Ta, TiN, V, VN, W), or the
@@ -81,7 +81,7 @@ class Conductor:
 
 
 @dataclass(frozen=True)
-class Dielectric:
+class Dielectric(Described):
     """A body of glass or water, clear or of GGX facets: it reflects and refracts.
 
     `ior`: its index of refraction over that around it, 0.1 to 10. Shadow rays do not pass it; paths do.
@@ -99,7 +99,7 @@ class Dielectric:
 
 
 @dataclass(frozen=True)
-class ThinDielectric:
+class ThinDielectric(Described):
     """A pane of clear glass without thickness: light goes straight through or is mirrored, between its faces too.
 
     `ior`: its index of refraction over that around it, 0.1 to 10. Shadow rays do not pass it; paths do.
@@ -113,8 +113,8 @@ class ThinDielectric:
 
 
 @dataclass(frozen=True)
-class Plastic:
-    """A clear coat, polished or of GGX facets, over a diffuse base; it gives back what it gets, less what the base keeps.
+class Plastic(Described):
+    """A clear coat, polished or of GGX facets, over a diffuse base; all light but what the base keeps comes back.
 
     `albedo` of the base, one number or three; `ior`: the coat's index of refraction over that outside, 0.1 to 10.
     `nonlinear`: light between coat and base takes the base's colour at each bounce, so that it deepens; else the colour
