@@ -2,18 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
-from antumbra.cli._say import significant, some
+from antumbra._pixel import LightRay, Pixel, Triple, ViewingRay
+from antumbra._words import significant, some
 from antumbra.settings import table
-
-if TYPE_CHECKING:
-    from antumbra.explanation import Explanation, LightRay, Triple, ViewingRay
 
 _COLUMN = 25
 
 
-def explained(e: Explanation) -> str:
+def explained(e: Pixel) -> str:
     """Scene and pixel; per viewing ray its receiver and its table; the sum."""
     mis = e.settings.get("estimator") == "mis"
     lines = [f"{e.name}, pixel {e.pixel[0]},{e.pixel[1]} of {e.size[0]} × {e.size[1]} · {_plan(e)}"]
@@ -29,13 +25,13 @@ def explained(e: Explanation) -> str:
     return "\n".join(lines)
 
 
-def _plan(e: Explanation) -> str:
+def _plan(e: Pixel) -> str:
     value = {name: e.settings.get(name, setting.default) for name, setting in table().items()}
     shadow = some(int(value["shadow_rays"]), "shadow ray")
     return f"{value['estimator']}, {value['viewing_rays']} viewing × {shadow}"
 
 
-def _viewing_ray(e: Explanation, k: int, ray: ViewingRay, mis: bool) -> list[str]:
+def _viewing_ray(e: Pixel, k: int, ray: ViewingRay, mis: bool) -> list[str]:
     of = f"viewing ray {k + 1} of {len(e.viewing_rays)}"
     at = ray.receiver
     lines = [_fact(of, f"from {_vector(ray.origin)} along {_vector(ray.direction)}")]
@@ -58,7 +54,7 @@ def _viewing_ray(e: Explanation, k: int, ray: ViewingRay, mis: bool) -> list[str
     return lines
 
 
-def _light_ray(e: Explanation, row: LightRay, mis: bool) -> str:
+def _light_ray(e: Pixel, row: LightRay, mis: bool) -> str:
     light = "none" if row.light is None else e.lights[row.light]
     place = row.point or row.direction
     where = "".join(f"{_short(c):>7}" for c in place)

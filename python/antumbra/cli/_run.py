@@ -7,6 +7,7 @@ import os
 import pkgutil
 import sys
 import traceback
+from pathlib import Path
 
 import click
 
@@ -46,11 +47,8 @@ def run(arguments: list[str]) -> int:
 
 def verbs() -> list[str]:
     """The verbs: every file of this folder whose name does not begin with `_`."""
-    import antumbra.cli as folder
-
-    return [
-        module.name for module in pkgutil.iter_modules(folder.__path__) if not module.name.startswith("_")
-    ]
+    folder = str(Path(__file__).parent)
+    return [module.name for module in pkgutil.iter_modules([folder]) if not module.name.startswith("_")]
 
 
 def verb(name: str) -> Verb:

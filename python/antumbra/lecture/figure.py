@@ -3,37 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, NamedTuple
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from antumbra.lecture.variant import Pick as Pick
+from antumbra.lecture.variant import Variant as Variant
 
 if TYPE_CHECKING:
     from antumbra.lecture.quantity import Quantity
     from antumbra.lecture.run import Run
     from antumbra.lecture.stages import Part
-    from antumbra.scene import Scene
 
     Measured = Mapping[str, Quantity]
-
-
-class Pick(NamedTuple):
-    """A value that depends on how long the lecture may take."""
-
-    quick: Any
-    full: Any
-
-
-@dataclass(frozen=True)
-class Variant:
-    """One picture of a figure: a scene and ordinary options of `Scene.render`.
-
-    `key` names it in the figure and in its files. `scene` is called to build it. An option may be a `Pick`.
-    `replicates`: how often it is rendered, each with a seed of its own.
-    """
-
-    key: str
-    scene: Callable[[], Scene]
-    options: Mapping[str, Any] = field(default_factory=dict)
-    replicates: int | Pick = 1
 
 
 @dataclass(frozen=True)

@@ -11,8 +11,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from antumbra import _core
 from antumbra.lecture import pictures
-from antumbra.lecture.figure import Pick, Variant
 from antumbra.lecture.stages import Picture
+from antumbra.lecture.variant import Pick, Variant
 
 if TYPE_CHECKING:
     from antumbra.image import Image

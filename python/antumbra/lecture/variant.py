@@ -1,0 +1,31 @@
+"""One picture of a figure: a scene and ordinary options (`Variant`); values that depend on the time (`Pick`)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+if TYPE_CHECKING:
+    from antumbra.scene import Scene
+
+
+class Pick(NamedTuple):
+    """A value that depends on how long the lecture may take."""
+
+    quick: Any
+    full: Any
+
+
+@dataclass(frozen=True)
+class Variant:
+    """One picture of a figure: a scene and ordinary options of `Scene.render`.
+
+    `key` names it in the figure and in its files. `scene` is called to build it. An option may be a `Pick`.
+    `replicates`: how often it is rendered, each with a seed of its own.
+    """
+
+    key: str
+    scene: Callable[[], Scene]
+    options: Mapping[str, Any] = field(default_factory=dict)
+    replicates: int | Pick = 1
