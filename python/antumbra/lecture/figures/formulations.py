@@ -25,10 +25,14 @@ from antumbra.study.statistics import Line
 RATIOS = [0.1, 0.2, 0.3, 0.4, 0.6, 0.8, 1.0, 1.2, 1.3, 1.4, 1.5, 1.58]
 CROSSING = RATIOS[-4:]
 FORMS = {"hemisphere": "directions", "surfaces": "all surfaces", "area": "the light"}
-ONE: dict[str, Any] = {"light_points": "area", "directions": "cosine"}
+ONE: dict[str, dict[str, Any]] = {
+    "hemisphere": {"estimator": "hemisphere", "directions": "cosine"},
+    "surfaces": {"estimator": "surfaces"},
+    "area": {"estimator": "area", "light_points": "area"},
+}
 RAYS = Pick(32, 128)
 LOOK = {
-    **ONE, "sampler": "random", "viewing": "centre", "viewing_rays": RAYS, "shadow_rays": 1, "size": Pick((72, 48), (240, 160)),
+    "sampler": "random", "viewing": "centre", "viewing_rays": RAYS, "shadow_rays": 1, "size": Pick((72, 48), (240, 160)),
     "eye": (0.0, 0.62, 1.95), "look_at": (0.0, 0.5, -1.0), "up": (0.0, 1.0, 0.0), "fov": 1.15,
 }  # fmt: skip
 BETTER = ("#f2b705", "#4e70aa", "#15181f")
@@ -40,7 +44,7 @@ def _samples(run: Run, form: str, at: float) -> Samples:
     count = run.pick(Pick(2**16, 2**20) if close else Pick(2**14, 2**18)) * (2 if at == 1.0 else 1)
     run.rays += count
     scene = run.scene(low_room.low_room(at))
-    return one_sample(scene, (0.0, 0.0, 0.0), count, run.seeded(RATIOS.index(at)), estimator=form, **ONE)
+    return one_sample(scene, (0.0, 0.0, 0.0), count, run.seeded(RATIOS.index(at)), **ONE[form])
 
 
 def _crossing(samples: Mapping[tuple[str, float], Samples]) -> Quantity:
@@ -186,7 +190,7 @@ FIGURE = Figure(
         ("10 %", "a third", "half", "two thirds"), 3,
     ),
     variants=[
-        Variant(f"{form}-{at}", low_room.low_room(at), LOOK | {"estimator": form, "aov": "emission"}) for at in RATIOS for form in FORMS
+        Variant(f"{form}-{at}", low_room.low_room(at), LOOK | ONE[form] | {"aov": "emission"}) for at in RATIOS for form in FORMS
     ],
     measure=_measure, stage=_stage, exr=["hemisphere-0.4", "surfaces-0.4", "area-0.4"],
     answer=Number("even", "of the hemisphere. Below, points of the light are better; above, directions: there near points count many times as much as far ones."),
