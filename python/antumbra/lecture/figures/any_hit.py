@@ -17,7 +17,7 @@ from antumbra.lecture.scenes import builtin
 from antumbra.lecture.stages import Panel, Part, Picture, Row, Table, Tabs
 
 SCENES = {"interior": builtin("interior"), "scan": builtin("scan", triangles=50_000), "many-lights": builtin("many-lights")}  # fmt: skip
-SIZE, TIMES = Pick((240, 168), (640, 448)), Pick(4, 16)
+SIZE, TIMES = Pick((240, 168), (640, 448)), Pick(4, 8)
 COUNTS = ("any_boxes", "closest_boxes", "any_primitives", "closest_primitives")
 RAYS = {True: "blocked", False: "free"}
 # Colours of the maps: no ray; free rays from few visits to many; blocked ones.
@@ -103,7 +103,7 @@ def _maps(run: Run, name: str, measured: Mapping[str, Quantity]) -> Row:
 
 
 FIGURE = Figure(
-    number=5, chapter=2, title="Anything, or the first thing", seconds=Pick(7, 120),
+    number=5, chapter=2, title="Anything, or the first thing", seconds=Pick(5, 45),
     question=Question(
         "A shadow ray may stop at any blocker, a viewing ray has to find the first surface. "
         "How much of what the shadow rays of a room visit does that save?",

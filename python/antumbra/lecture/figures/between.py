@@ -29,7 +29,7 @@ P = (RADIUS * float(np.sin(0.5)), AXIS - RADIUS * float(np.cos(0.5)))
 # A sphere of radius 0.05 and radiance 720 that is 1.1 away: E = π L (r/d)².
 UNDER = np.pi * 720.0 * (0.05 / HANGS) ** 2
 LOOK = {
-    "estimator": "area", "viewing_rays": Pick(4, 64), "shadow_rays": Pick(1, 4), "size": Pick((240, 192), (640, 512)),
+    "estimator": "area", "viewing_rays": Pick(4, 16), "shadow_rays": Pick(1, 2), "size": Pick((240, 192), (480, 384)),
     "eye": (2.4, 1.0, 6.9), "look_at": (0.0, -0.08, 0.0),
 }  # fmt: skip
 
@@ -80,7 +80,7 @@ def _stage(run: Run, measured: Mapping[str, Quantity]) -> list[Strip]:
 
 
 FIGURE = Figure(
-    number=6, chapter=2, title="Between the plane and the cylinder", seconds=Pick(4, 90),
+    number=6, chapter=2, title="Between the plane and the cylinder", seconds=Pick(3, 60),
     question=Question(
         "A light hangs between a plane and a cylinder. A shadow ray that does not end at the light goes on until it meets something. "
         "What does the picture show?",

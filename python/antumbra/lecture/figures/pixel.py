@@ -112,7 +112,7 @@ def _stage(run: Run, measured: Mapping[str, Quantity]) -> list[Linked]:
         for n in range(CELLS**2)
     ]  # fmt: skip
     foot = ["sum = pixel", "", "", "", "", "", f"{rays.brings.sum():.4f}"]
-    note = f"Contribution = f_r L_e / 9 · V cos θ cos θ′ / (pdf r²), f_r = 0.6/π, L_e = {RADIANCE:g}, pdf = 1/A = 1/{AREA:.2f}. Point at a row: its ray lights up."
+    note = f"Contribution = f_r L_e / 9 · V cos θ cos θ′ / (pdf r²), f_r = 0.6/π, L_e = {RADIANCE:g}, pdf = 1/A = 1/{AREA:.2f}. Point at a row: its ray lights up. antumbra explain has such a table for any pixel."
     table = Table(
         ("ray", "V", "cos θ", "cos θ′", "r²", "pdf", "contribution"),
         rows,
@@ -136,7 +136,7 @@ def _stage(run: Run, measured: Mapping[str, Quantity]) -> list[Linked]:
 
 
 FIGURE = Figure(
-    number=8, chapter=2, title="One pixel, ray by ray", seconds=Pick(4, 60),
+    number=8, chapter=2, title="One pixel, ray by ray", seconds=Pick(3, 25),
     question=Question(
         "Nine shadow rays leave this pixel, one to each cell of the light, and some are blocked. How far is their sum from the integral, as a rule?",
         ("by 2 %", "by 20 %", "by 60 %"), 1,

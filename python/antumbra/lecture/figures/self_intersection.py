@@ -125,7 +125,7 @@ def _lost(width: Quantity) -> str:
 
 
 FIGURE = Figure(
-    number=7, chapter=2, title="Where a shadow ray starts", seconds=Pick(5, 60),
+    number=7, chapter=2, title="Where a shadow ray starts", seconds=Pick(3, 12),
     question=Question(
         "A shadow ray that starts at a rounded point may be blocked by the surface that it leaves. "
         "Why do viewing rays, computed with the same numbers, not suffer?",
