@@ -34,16 +34,20 @@ RULES = (
     Rule(("filter",), "viewing", ("filter",)),
     Rule(("aov", "exr"), "output", (".exr",)),
     Rule(("exposure", "tone"), "output", (".png",)),
+    Rule(("region_points",), "aov", ("regions", "all")),
 )
 
 
-def idle(given: Mapping[str, str], output: str = "") -> list[str]:
+def idle(given: Mapping[str, str], output: str | None = None) -> list[str]:
     """What to say about settings of `given` (words by name) that change nothing; `output`: the picture's ending."""
-    value = {name: given.get(name, setting.default) for name, setting in table().items()} | {"output": output}
+    value = {name: given.get(name, setting.default) for name, setting in table().items()}
+    if output is not None:
+        value["output"] = output
     said = []
     for rule in RULES:
         listed = [name for name in rule.settings if name in given and given[name] != rule.unless]
-        if listed and value[rule.of] and value[rule.of] not in rule.values:
+        words = value[rule.of].split(",") if rule.of in value else rule.values
+        if listed and not set(words) & set(rule.values):
             said.append(
                 _sentence([f"{name} = {_one_line(given[name])}" for name in listed], rule, value[rule.of])
             )
@@ -52,10 +56,13 @@ def idle(given: Mapping[str, str], output: str = "") -> list[str]:
 
 def _sentence(listed: list[str], rule: Rule, value: str) -> str:
     has = f"{' and '.join(listed)} {'has' if len(listed) == 1 else 'have'} no effect"
-    if rule.of == "output":
-        return f"{has} on a {value} (only on {' or '.join(rule.values)})"
     *others, last = rule.values
-    return f"{has} with {rule.of} = {value} (only with {' or '.join([', '.join(others), last] if others else [last])})"
+    heeding = " or ".join([", ".join(others), last] if others else [last])
+    if rule.of == "output":
+        return f"{has} on a {value} (only on {heeding})"
+    if not value:
+        return f"{has} without {rule.of} = {heeding}"
+    return f"{has} with {rule.of} = {value} (only with {heeding})"
 
 
 def _one_line(word: str) -> str:

@@ -205,7 +205,7 @@ class Scene(Anatomy):
 
         `origins` (N, 3) or receivers; `targets` (N, 3), or one (3,) for all. Or `directions` (N, 3) of any length with
         `max_distance`, one number or (N,), in multiples of the direction's length. Origins are taken as they are: one
-        that lies in a surface is not blocked by it.
+        that lies in a surface is not blocked by it. A direction of length 0 meets nothing.
 
         Raises ValueError for shapes that do not match and for numbers that are not finite.
         """

@@ -87,6 +87,17 @@ def test_the_same_command_gives_the_same_bits_for_any_number_of_threads(antumbra
             ["render", "pillars", "--eye", "1,2,3", "--look-at", "1,2,3"],
             "camera: eye and look-at are the same point",
         ),
+        (
+            ["render", "pillars", "--estimator", "ambient-occlusion", "--falloff", "linear"],
+            "--falloff linear needs a radius",
+        ),
+        (
+            ["render", "pillars", "--lights", "al"],
+            '--lights al: there is no "al"; did you mean "all"? (auto, all, ',
+        ),
+        (["render", "pillars", "--mistake", "no-cos"], 'did you mean "no-cos-light"?'),
+        (["render", "fuze", "uv.jpg"], '"uv.jpg": nothing takes this beside SCENE'),
+        (["study", "pillars", "-o", "a", "-o", "b"], "-o is given 2 times (a, b): once is needed"),
         (["render", "pillars", "--eye", "1,2"], "--eye 1,2: three numbers joined by commas are needed"),
         (["render", "pillars", "--crop", "600,0,100,10"], "does not lie in 640 x 480 pixels"),
         (["info"], "SCENE is missing (or --list, for the built-in scenes)"),
@@ -101,6 +112,20 @@ def test_bad_input_is_one_message_and_exit_2(arguments, said, antumbra, tmp_path
     assert said in ended.err
     assert "Traceback" not in ended.err
     assert list(tmp_path.iterdir()) == []
+
+
+def test_help_is_a_word_too(antumbra):
+    assert antumbra("help").out == antumbra("--help").out
+    assert antumbra("help", "diff").out == antumbra("diff", "--help").out
+
+
+def test_notes_of_a_file_name_it_and_its_options_as_they_are_typed(antumbra, data):
+    file = data / "scenes" / "gltf" / "BoxInterleaved.glb"
+    ended = antumbra("render", file, *SMALL, "-o", "box.png")
+    assert ended.err.splitlines()[:2] == [
+        "note: BoxInterleaved.glb: no light in the file: lit by the default sky (--environment to choose)",
+        "note: BoxInterleaved.glb: no camera: made one that sees everything (--eye, --look-at to choose)",
+    ]
 
 
 def test_a_folder_without_rights_is_told_before_rendering(antumbra, tmp_path):

@@ -25,13 +25,14 @@ OTHER = {
     "rotate": "on",
     "pairing": "2d",
     "filter": "box",
+    "region_points": "16",
 }
 # What has to be set beside it, so that it can be seen.
 BESIDE = {"falloff": {"radius": "0.7"}, "distance_test": {"light": "light 1"}}
 CASES = [
     (name, rule.of, word)
     for rule in RULES
-    if rule.of != "output"
+    if rule.of not in ("output", "aov")
     for name in rule.settings
     for word in settings.table()[rule.of].choices
 ]
@@ -86,6 +87,11 @@ def test_only_what_was_given_is_told_and_each_once():
     assert idle({"aov": "depth"}, ".png") == ["aov = depth has no effect on a .png (only on .exr)"]
     assert idle({"tone": "filmic"}, ".exr") == ["tone = filmic has no effect on a .exr (only on .png)"]
     assert idle({"aov": "depth"}) == [], "an image in memory has it"
+    assert idle({"region_points": "9"}) == ["region_points = 9 has no effect without aov = regions or all"]
+    assert idle({"region_points": "9", "aov": "depth"}) == [
+        "region_points = 9 has no effect with aov = depth (only with regions or all)"
+    ]
+    assert idle({"region_points": "9", "aov": "depth,regions"}) == []
 
 
 def test_python_finds_it_among_the_messages_of_the_image():

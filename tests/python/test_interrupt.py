@@ -8,6 +8,8 @@ import subprocess
 import sys
 import time
 
+import pytest
+
 import antumbra as am
 
 # Passes of a small picture are short: some are done soon after the start, even on a busy machine.
@@ -46,27 +48,39 @@ def test_ctrl_c_keeps_the_picture_so_far(tmp_path):
     code, out, err = interrupted(command, tmp_path, after=5.0)
     assert code == 130, err
     assert out == "" and "Traceback" not in err
-    done = re.search(r"stopped after (\d+) of 10000000 passes; p\.png holds them\n$", err)
-    assert done and int(done[1]) > 0, err
+    said = r"stopped after ([\d,]+) of 10,000,000 passes; p\.png holds them, standard error .*\n$"
+    done = re.search(said, err)
+    assert done and int(done[1].replace(",", "")) > 0, err
     assert am.load_image(tmp_path / "p.png").max() > 0
     assert [p.name for p in tmp_path.iterdir()] == ["p.png"]
 
 
 QUERY = """
 import numpy as np, antumbra as am
-scene = am.builtin("pillars")
+scene = am.builtin("{name}")
 points = np.random.default_rng(1).uniform(-1, 1, (1_000_000, 3))
 print("asking", flush=True)
 try:
-    scene.ambient_occlusion(points, (0.0, 1, 0), rays=100_000)
+    {ask}
 except KeyboardInterrupt:
     print("interrupted", flush=True)
 """
 
 
-def test_ctrl_c_ends_a_query(tmp_path):
+# The second: 400 lights are weighed for each of a million receivers.
+ASKED = [
+    ("pillars", "scene.ambient_occlusion(points, (0.0, 1, 0), rays=100_000)"),
+    ("many-lights", "scene.sample_light(points, (0.0, 1, 0), points % 1, lights='contribution')"),
+]
+
+
+@pytest.mark.parametrize(("name", "ask"), ASKED)
+def test_ctrl_c_ends_a_query(name, ask):
     process = subprocess.Popen(
-        [sys.executable, "-c", QUERY], stdout=subprocess.PIPE, text=True, preexec_fn=listening
+        [sys.executable, "-c", QUERY.replace("{name}", name).replace("{ask}", ask)],
+        stdout=subprocess.PIPE,
+        text=True,
+        preexec_fn=listening,
     )
     assert process.stdout.readline() == "asking\n"
     time.sleep(2.0)

@@ -112,13 +112,13 @@ _TWICE = (
 )
 
 
-def output_option(metavar: str, text: str) -> Option:
-    """`-o`: one file, once; two would leave one out without a word."""
+def output_option(metavar: str, text: str, default: str | None = None) -> Option:
+    """`-o`: one file or folder, once; two would leave one out without a word."""
 
     def once(_: click.Context, __: click.Parameter, given: tuple[str, ...]) -> str | None:
         if len(given) > 1:
             raise click.UsageError(f"-o is given {len(given)} times ({', '.join(given)}): once is needed")
-        return given[0] if given else None
+        return given[0] if given else default
 
     return Option(
         "-o", "--output", "output", group="Files", metavar=metavar, multiple=True, callback=once, help=text

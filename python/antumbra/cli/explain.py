@@ -6,6 +6,7 @@ import json as json_module
 
 import click
 
+from antumbra import effects
 from antumbra.cli import _say, _scene
 from antumbra.cli._command import GROUPS, Option, Verb
 
@@ -33,6 +34,7 @@ def run(
         return 0
     _scene.tell(opened, quiet)
     if not quiet:
+        _say.messages("", [("note", "", text) for text in effects.idle({"estimator": "area", **settings})])
         _say.messages("", found.messages)
     print(found)
     return 0

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Self
 import click
 
 from antumbra.cli import _say
-from antumbra.cli._command import Option, Verb
+from antumbra.cli._command import Option, Verb, output_option
 
 if TYPE_CHECKING:
     import rich.progress
@@ -72,14 +72,10 @@ VERB = Verb(
         ("antumbra lecture -o lecture --single-file", "one file to pass on"),
     ],
     options=[
-        Option(
-            "-o",
-            "--output",
-            "output",
-            group="Files",
-            metavar="FOLDER",
+        output_option(
+            "FOLDER",
+            "folder of the page: index.html, pictures/, exr/, lecture.json [lecture]",
             default="lecture",
-            help="folder of the page: index.html, pictures/, exr/, lecture.json [lecture]",
         ),
         Option(
             "--single-file",

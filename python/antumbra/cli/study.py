@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from antumbra.cli import _say, _scene
-from antumbra.cli._command import GROUPS, Option, Verb
+from antumbra.cli._command import GROUPS, Option, Verb, output_option
 from antumbra.cli._progress import Bar
 
 if TYPE_CHECKING:
@@ -86,8 +86,7 @@ VERB = Verb(
         Option("--budget", group="Study", metavar="rays=N|seconds=T",
                help="let all variants spend the same, per pixel or per picture; more than one, joined by commas"),
         Option("--seeds", group="Study", metavar="K", type=int, default=8, help="renders of each variant [8]"),
-        Option("-o", "--output", "output", group="Files", metavar="FOLDER",
-               help="where index.html, results.csv and results.json go [NAME-study]"),
+        output_option("FOLDER", "where index.html, results.csv and results.json go [NAME-study]"),
         *_scene.options(),
     ],
 )  # fmt: skip

@@ -167,7 +167,7 @@ fn check(scene: &Scene, s: &Settings) -> Result<(), SceneError> {
         return Err(SceneError::new(
             "",
             what,
-            "Take fewer viewing rays or shadow rays, or one light (--light NAME).",
+            "Take fewer viewing rays or shadow rays, or one light (`light` = NAME).",
         ));
     }
     Ok(())

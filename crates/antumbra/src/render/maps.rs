@@ -38,7 +38,7 @@ pub(super) fn region_maps(
     let names = layer_names(scene);
     if names.len() < scene.lights().len() {
         let text = format!(
-            "aov regions: the first {MOST} of {} lights have a map (--light NAME chooses others)",
+            "aov regions: the first {MOST} of {} lights have a map (`light` = NAME chooses others)",
             scene.lights().len()
         );
         messages.push(Message { level: Level::Note, place: String::new(), text });

@@ -54,7 +54,8 @@ impl Settings {
 
     /// Refuses settings that contradict each other.
     pub fn check(&self) -> Result<(), SceneError> {
-        if self.falloff != Falloff::None && self.radius.is_infinite() {
+        let heeded = self.estimator == EstimatorKind::AmbientOcclusion;
+        if heeded && self.falloff != Falloff::None && self.radius.is_infinite() {
             let what = format!("falloff = {} needs a radius", self.falloff.show());
             let hint = "Give `radius`, the distance at which an occluder stops counting.";
             return Err(SceneError::new("", what, hint));
