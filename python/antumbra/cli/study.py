@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from antumbra.study.sources import Source
 
 ORDER = 5
-STOPPED = 130
+OURS, STOPPED = 1, 130
 
 
 def run(
@@ -54,8 +54,13 @@ def run(
     try:
         with Bar(quiet) as bar:
             found = study.run(source, progress=_shown(bar), **{**settings, **asked})
-    except OSError as problem:
+    except study.FolderError as problem:
         raise click.UsageError(f"{problem}. Nothing was rendered.") from problem
+    except OSError as problem:
+        _say.error(
+            f"{folder}: {problem}", "The rows that results.json holds are kept; the same command goes on."
+        )
+        return OURS
     except study.StudyStopped as stopped:
         return _stopped(stopped.study, folder)
     if not quiet:

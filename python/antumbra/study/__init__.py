@@ -16,6 +16,7 @@ True
 from __future__ import annotations
 
 from antumbra.study import statistics
+from antumbra.study.files import FolderError
 from antumbra.study.job import StudyStopped
 from antumbra.study.renders import Step
 from antumbra.study.result import Study
@@ -23,4 +24,4 @@ from antumbra.study.rows import Row
 from antumbra.study.run import run
 from antumbra.study.statistics import Interval
 
-__all__ = ["Interval", "Row", "Step", "Study", "StudyStopped", "run", "statistics"]
+__all__ = ["FolderError", "Interval", "Row", "Step", "Study", "StudyStopped", "run", "statistics"]

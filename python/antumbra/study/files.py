@@ -16,11 +16,19 @@ if TYPE_CHECKING:
 NAMES = ("results.csv", "results.json", "index.html")
 
 
+class FolderError(OSError):
+    """The folder cannot be written; nothing was rendered yet."""
+
+
 def check_folder(folder: Path) -> None:
-    """Makes the folder; raises OSError if its files could not be written."""
-    folder.mkdir(parents=True, exist_ok=True)
-    for name in NAMES:
-        _core.check_writable(str(folder / name))
+    """Makes the folder; raises FolderError if its files could not be written."""
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        for name in NAMES:
+            _core.check_writable(str(folder / name))
+    except OSError as problem:
+        reason = problem.strerror.lower() if problem.strerror else problem
+        raise FolderError(f"{folder} cannot be written ({reason})") from problem
 
 
 def keep(study: Study, folder: Path) -> None:

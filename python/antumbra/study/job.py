@@ -90,6 +90,7 @@ class Job:
 
     def run(self, folder: Path | None) -> Study:
         """Renders everything that the folder does not hold already. Raises StudyStopped with what is finished."""
+        new = folder is not None and not folder.exists()
         if folder is not None:
             check_folder(folder)
         rows: list[Row] = []
@@ -105,6 +106,8 @@ class Job:
             study = self._study(rows, False)
             if folder is not None and rows:
                 write(study, folder)
+            elif folder is not None and new:
+                folder.rmdir()
             raise StudyStopped(study) from None
         study = self._study(rows, True)
         if folder is not None:

@@ -101,10 +101,15 @@ class Study:
         bars = (low, high) if all(r.noisy for r in rows) else ([], [])
         slope = self.slope(name) if over == "axis" else None
         if slope is None:
-            return Curve(name, x, y, *bars, note="" if self._unbiased(rows) else "biased")
+            return Curve(name, x, y, *bars, note=self._without_slope(rows))
         line = statistics.variance_line(x, _variances(rows), np.geomspace(min(x), max(x), 24))
         half = Interval(slope.value / 2, slope.low / 2, slope.high / 2)
         return Curve(name, x, y, *bars, line, f"slope {half}")
+
+    def _without_slope(self, rows: Sequence[Row]) -> str:
+        if any(r.bias and r.bias.flagged for r in rows):
+            return "biased" if any(r.noisy for r in rows) else "the same error each time"
+        return "" if all(r.noisy for r in rows) else "no noise"
 
     def csv(self) -> str:
         """One line per row, for a spreadsheet."""

@@ -50,8 +50,8 @@ def run(
     `folder`: where results.csv, results.json and index.html go; rows that an earlier, stopped run of the same study
     left there are kept. `progress` is called with a `Step`. `command`: how this was called, for the page.
 
-    Raises ValueError before anything is rendered for what cannot be varied, OSError for a folder that cannot be
-    written, `StudyStopped` (a KeyboardInterrupt) with `.study` on Ctrl-C.
+    Raises, before anything is rendered, ValueError for what cannot be varied and OSError for a folder that cannot be
+    written; `StudyStopped` (a KeyboardInterrupt) with `.study` on Ctrl-C.
 
     >>> import antumbra as am
     >>> am.study.run("pillars", vary={"shadow_rays": [1, 4]}, estimator="area", viewing_rays=1, size=(8, 6), seeds=3)

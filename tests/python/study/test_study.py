@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 import antumbra as am
-from antumbra.study import StudyStopped, plan, renders
+from antumbra.study import StudyStopped, files, plan, renders
 from antumbra.study import statistics as st
 
 # One ray through the centre of each pixel, points uniform on the lights: all noise is that of the shadow rays.
@@ -170,6 +170,31 @@ def test_a_stopped_study_keeps_its_rows_and_goes_on(tmp_path, monkeypatch):
     assert len(calls) - 100 == 8 + 2 * 3
     whole = am.study.run("pillars", **SMALL)
     assert [r.variances for r in found.rows] == [r.variances for r in whole.rows]
+
+
+def test_a_study_that_is_stopped_at_once_leaves_nothing(tmp_path, monkeypatch):
+    def stops(*_):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(renders.Work, "render", stops)
+    with pytest.raises(StudyStopped) as stopped:
+        am.study.run("pillars", folder=tmp_path / "new", **SMALL)
+    assert stopped.value.study.rows == [] and list(tmp_path.iterdir()) == []
+
+
+def test_a_disk_that_fills_up_keeps_the_rows_before(tmp_path, monkeypatch):
+    real, written = files._replace, []
+
+    def full(target, text):
+        written.append(target.name)
+        if len(written) == 3:
+            raise OSError(28, "No space left on device")
+        real(target, text)
+
+    monkeypatch.setattr(files, "_replace", full)
+    with pytest.raises(OSError, match="No space left"):
+        am.study.run("pillars", folder=tmp_path, **SMALL)
+    assert len(json.loads((tmp_path / "results.json").read_text("utf-8"))["rows"]) == 2
 
 
 def test_progress_is_told():
