@@ -12,18 +12,18 @@ from antumbra.study.statistics import Interval, plus_minus, ratio
 if TYPE_CHECKING:
     import jinja2
 
-    from antumbra.study.result import Study
+    from antumbra.study.findings import Findings
     from antumbra.study.rows import Row
 
 RADIANCE = "W·m⁻²·sr⁻¹"
 
 
-def page(study: Study) -> str:
+def page(study: Findings) -> str:
     """The whole page in one file."""
     return _environment().get_template("page.html.j2").render(_facts(study))
 
 
-def fragment(study: Study) -> str:
+def fragment(study: Findings) -> str:
     """Plot and table alone, with styles that touch nothing else."""
     return _environment().get_template("fragment.html.j2").render(_facts(study))
 
@@ -38,7 +38,7 @@ def _environment() -> jinja2.Environment:
     )
 
 
-def short_table(study: Study) -> list[str]:
+def short_table(study: Findings) -> list[str]:
     """One line per curve for a terminal: its slope, and its last row."""
     lines = [("", "slope of the variance", "RMSE", "bias")]
     for name, rows in study.curves().items():
@@ -55,7 +55,7 @@ def short_table(study: Study) -> list[str]:
     ]
 
 
-def _facts(study: Study) -> dict[str, Any]:
+def _facts(study: Findings) -> dict[str, Any]:
     best = study.most_efficient()
     return {
         "study": study,
@@ -75,7 +75,7 @@ def _facts(study: Study) -> dict[str, Any]:
     }
 
 
-def axis_title(study: Study) -> str:
+def axis_title(study: Findings) -> str:
     """What the numbers below the plot are of."""
     budgets = {"rays": "budget, rays per pixel", "seconds": "budget, seconds per picture"}
     known = {"shadow_rays": "shadow rays, N", "viewing_rays": "viewing rays per pixel, N"}
@@ -84,7 +84,7 @@ def axis_title(study: Study) -> str:
     return known.get(study.axis, _dashed(study.axis))
 
 
-def _plot(study: Study, over: str) -> str:
+def _plot(study: Findings, over: str) -> str:
     best = study.most_efficient()
     of_time = over == "seconds"
     title = "seconds per picture" if of_time else axis_title(study)
@@ -110,7 +110,7 @@ def _decades(values: list[float]) -> list[float]:
     return [t for t in ticks if 10**low * 0.999 <= t <= 10**high * 1.001]
 
 
-def _slopes(study: Study) -> list[tuple[str, Interval]]:
+def _slopes(study: Findings) -> list[tuple[str, Interval]]:
     found = [(name, study.slope(name)) for name in study.curves()]
     return [(name, slope) for name, slope in found if slope is not None]
 
@@ -121,7 +121,7 @@ def _against_independent(slope: Interval) -> str:
     return "faster than independent samples" if slope.high < -1 else "slower than independent samples"
 
 
-def _line(study: Study, row: Row) -> dict[str, Any]:
+def _line(study: Findings, row: Row) -> dict[str, Any]:
     """A row of the table, in words."""
     error = study.error(row)
     first = study.rows[0]
@@ -161,7 +161,7 @@ def _percent(share: float) -> str:
     return f"{share:,.0f}" if share >= 10 else f"{share:.2g}"
 
 
-def _biased(study: Study) -> list[str]:
+def _biased(study: Findings) -> list[str]:
     """What is said of each curve that has flagged rows; its numbers are those of the last of them."""
     found = []
     for name, rows in study.curves().items():

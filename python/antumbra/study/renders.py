@@ -21,8 +21,8 @@ if TYPE_CHECKING:
 # Seeds of the reference and of the pilots lie far from those of the variants.
 _REFERENCE_SEED, _PILOT_SEED = 1 << 30, 1 << 29
 REFERENCE_SEEDS = 8
-# The reference traces so many times the viewing × shadow rays of the largest variant, over all its seeds.
-_LONGER = 16
+# The least viewing rays of one seed of a reference.
+_LEAST = 16
 # Pilots of a time budget grow until they take so long [s], so that their start-up does not count.
 _PILOT_SECONDS = 0.05
 
@@ -161,15 +161,19 @@ def rays_per_pixel(image: Image) -> float:
 
 
 def reference_words(plan: Plan, estimator: str, rays: int) -> dict[str, str]:
-    """Settings of a reference: those that decide what is shown, the estimator, many rays (0: enough)."""
-    largest = [numbers_of_rays(v.words) for v in plan.variants]
-    wanted = rays or _LONGER * max(viewing * shadow for viewing, shadow in largest)
-    # A power of four, for which Owen's points are balanced.
-    number = 4
-    while number * REFERENCE_SEEDS < wanted:
+    """Settings of a reference: those that decide what is shown, the estimator, its rays (0: a fair number)."""
+    number = _LEAST if rays == 0 else 1
+    # A power of four, for which Owen's points are balanced: at least what is asked, or at most what is fair.
+    while number * REFERENCE_SEEDS < rays or (rays == 0 and 4 * number * REFERENCE_SEEDS <= _fair(plan)):
         number *= 4
     kept = {k: v for k, v in plan.fixed.items() if k not in METHOD or k == "threads"}
     return {**kept, "estimator": estimator, "viewing_rays": str(number)}
+
+
+def _fair(plan: Plan) -> float:
+    """As many samples as all variants of a truth take together: then half of the time goes into the reference."""
+    samples = sum(viewing * shadow for viewing, shadow in (numbers_of_rays(v.words) for v in plan.variants))
+    return samples * plan.seeds / len({v.truth() for v in plan.variants})
 
 
 def reference_name(estimator: str, viewing_rays: str) -> str:

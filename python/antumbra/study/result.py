@@ -1,189 +1,20 @@
-"""What a study found: its rows, slopes, warnings; as text, CSV, JSON and a page."""
+"""A study as people hold it: what was found, and how it shows itself."""
 
 from __future__ import annotations
 
-import csv
-import io
-import json
-import math
-from collections.abc import Sequence
-from dataclasses import dataclass, field
-from typing import Any
+from dataclasses import dataclass
 
-import numpy as np
-
-from antumbra.study import statistics
-from antumbra.study.plot import Curve
-from antumbra.study.rows import Row
-from antumbra.study.statistics import Interval
+from antumbra.study import page
+from antumbra.study.findings import Findings
 
 
-@dataclass(frozen=True)
-class Study:
-    """A table of error against rays and seconds, as `antumbra.study.run` returns it.
-
-    `rows`: one per variant; `axis`: what is on the axis of the plots (a setting, `budget`, or nothing); `varied`: the
-    names and values; `reference`: what it was held against, in words; `messages`: notes and warnings (level, place,
-    text); `complete`: False if it was stopped before all rows were done; `command`: how it was called, if known.
-    """
-
-    scene: str
-    size: tuple[int, int]
-    seeds: int
-    axis: str
-    varied: dict[str, list[str]]
-    fixed: dict[str, str]
-    reference: str
-    rows: list[Row] = field(default_factory=list)
-    messages: list[tuple[str, str, str]] = field(default_factory=list)
-    complete: bool = True
-    budget: str = ""
-    fingerprint: str = ""
-    command: str = ""
-
-    def curves(self) -> dict[str, list[Row]]:
-        """The rows of each curve in the order of the axis, by name: the values that are not on the axis."""
-        found: dict[str, list[Row]] = {}
-        for row in self.rows:
-            found.setdefault(self.name_of(row), []).append(row)
-        return {name: sorted(rows, key=lambda r: r.n or 0.0) for name, rows in found.items()}
-
-    def name_of(self, row: Row) -> str:
-        """The curve that a row belongs to: `area · owen`, `light-size 0.5`."""
-        several = [n for n, values in self.varied.items() if len(values) > 1 and n != self.axis]
-        words = [_said(n, row.values[n]) for n in several]
-        return " · ".join(words) or self.fixed.get("estimator", "path")
-
-    def flagged(self) -> list[Row]:
-        """Rows whose mean differs from the reference by more than noise explains."""
-        return [r for r in self.rows if r.bias is not None and r.bias.flagged]
-
-    def error(self, row: Row) -> Interval | None:
-        """Root mean square error of a row: without bias, the standard deviation over seeds, which needs no reference.
-
-        Where a bias was found in the row's curve, or seeds make no difference, it is taken against the reference.
-        """
-        if self._unbiased(self.curves()[self.name_of(row)]):
-            return statistics.root(row.variance)
-        return row.rmse
-
-    def slope(self, name: str) -> Interval | None:
-        """Slope of log variance against log N of a curve: −1 for independent samples. Of the RMSE it is half of that.
-
-        None where it cannot be fitted: N is not a number of rays, or there is a bias, which more rays do not reduce.
-        """
-        rows = self.curves()[name]
-        if not self._fits(rows):
-            return None
-        return statistics.variance_slope([r.n or 0.0 for r in rows], _variances(rows))
-
-    def _unbiased(self, rows: Sequence[Row]) -> bool:
-        return all(r.noisy and not (r.bias and r.bias.flagged) for r in rows)
-
-    def _fits(self, rows: Sequence[Row]) -> bool:
-        of_rays = self.axis in ("shadow_rays", "viewing_rays", "budget") and len(rows) > 1
-        return of_rays and self._unbiased(rows) and bool((_variances(rows) > 0).all())
-
-    def most_efficient(self) -> Row | None:
-        """The row of the greatest 1/(variance × seconds), among those without a bias."""
-        fit = [r for rows in self.curves().values() if self._unbiased(rows) for r in rows]
-        return max(fit, key=lambda r: r.efficiency.value, default=None)
-
-    def plot_curves(self, over: str = "axis") -> list[Curve]:
-        """For `plot.error_curves`: the error of each curve over the axis, or over "seconds"."""
-        return [self._curve(name, rows, over) for name, rows in self.curves().items()]
-
-    def _curve(self, name: str, rows: Sequence[Row], over: str) -> Curve:
-        x = [r.seconds.value if over == "seconds" else r.n or 0.0 for r in rows]
-        nothing = Interval(math.nan, math.nan, math.nan)
-        errors = [e if e and e.value > 0 else nothing for e in map(self.error, rows)]
-        y, low, high = ([float(e[i]) for e in errors] for i in range(3))
-        bars = (low, high) if all(r.noisy for r in rows) else ([], [])
-        slope = self.slope(name) if over == "axis" else None
-        if slope is None:
-            return Curve(name, x, y, *bars, note=self._without_slope(rows))
-        line = statistics.variance_line(x, _variances(rows), np.geomspace(min(x), max(x), 24))
-        half = Interval(slope.value / 2, slope.low / 2, slope.high / 2)
-        return Curve(name, x, y, *bars, line, f"slope {half}")
-
-    def _without_slope(self, rows: Sequence[Row]) -> str:
-        if any(r.bias and r.bias.flagged for r in rows):
-            return "biased" if any(r.noisy for r in rows) else "the same error each time"
-        return "" if all(r.noisy for r in rows) else "no noise"
-
-    def csv(self) -> str:
-        """One line per row, for a spreadsheet."""
-        file = io.StringIO()
-        lines = [flat(self, row) for row in self.rows]
-        writer = csv.DictWriter(file, lines[0].keys() if lines else ["empty"], lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(lines)
-        return file.getvalue()
-
-    def json(self) -> str:
-        """Everything, with stable keys: intervals as [value, low, high], what is unknown as null."""
-        whole: dict[str, Any] = {
-            "scene": self.scene, "size": list(self.size), "seeds": self.seeds, "axis": self.axis,
-            "varied": self.varied, "fixed": self.fixed, "budget": self.budget, "reference": self.reference,
-            "complete": self.complete, "messages": [list(m) for m in self.messages],
-            "variance_slopes": {name: self.slope(name) for name in self.curves()},
-            "rows": [row.as_json() for row in self.rows], "command": self.command, "fingerprint": self.fingerprint,
-        }  # fmt: skip
-        return json.dumps(_plain(whole), indent=1, ensure_ascii=False) + "\n"
+@dataclass(frozen=True, repr=False)
+class Study(Findings):
+    """A table of error against rays and seconds, as `antumbra.study.run` returns it; it shows itself in a notebook."""
 
     def html(self) -> str:
         """The page: plots, tables, what was measured how. Whole in one file, no network."""
-        from antumbra.study.page import page
-
-        return page(self)
+        return page.page(self)
 
     def _repr_html_(self) -> str:
-        from antumbra.study.page import fragment
-
-        return fragment(self)
-
-    def __repr__(self) -> str:
-        """`<Study of pillars: 12 rows × 8 seeds, 1 flagged>`."""
-        state = "" if self.complete else ", stopped"
-        flagged = f", {len(self.flagged())} flagged as biased" if self.flagged() else ""
-        return f"<Study of {self.scene}: {len(self.rows)} rows × {self.seeds} seeds{flagged}{state}>"
-
-
-def _said(name: str, value: str) -> str:
-    """A value as a curve's name has it: words alone, numbers with what they are of."""
-    shown = name.removeprefix("D.").replace("_", "-")
-    try:
-        return f"{shown} {float(value):g}"
-    except ValueError:
-        return f"{shown} {value}" if value in ("on", "off", "none") else value
-
-
-def flat(study: Study, row: Row) -> dict[str, str | float]:
-    """A row as a line of the CSV."""
-    line: dict[str, str | float] = {"curve": study.name_of(row)}
-    line |= {name.replace("_", "-"): value for name, value in row.values.items()}
-    line |= {"viewing-rays": row.viewing_rays, "shadow-rays": row.shadow_rays, "rays-per-pixel": row.rays}
-    for name in ("seconds", "variance", "mse", "rmse", "efficiency"):
-        found: Interval = getattr(row, name) or Interval(math.nan, math.nan, math.nan)
-        line |= {name: found.value, f"{name}-low": found.low, f"{name}-high": found.high}
-    line["reference-variance"] = row.reference_variance
-    if row.bias is not None:
-        line |= {"bias": row.bias.difference.value, "bias-low": row.bias.difference.low,
-                 "bias-high": row.bias.difference.high, "bias-p": row.bias.p,
-                 "biased": "yes" if row.bias.flagged else "no"}  # fmt: skip
-    return line
-
-
-def _variances(rows: Sequence[Row]) -> Any:
-    return np.array([r.variances for r in rows]).T
-
-
-def _plain(value: Any) -> Any:
-    """For JSON, which has no NaN and no infinity."""
-    if isinstance(value, float):
-        return value if math.isfinite(value) else None
-    if isinstance(value, dict):
-        return {key: _plain(v) for key, v in value.items()}
-    if isinstance(value, (list, tuple)):
-        return [_plain(v) for v in value]
-    return value
+        return page.fragment(self)
