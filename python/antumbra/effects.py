@@ -60,6 +60,8 @@ def _sentence(listed: list[str], rule: Rule, value: str) -> str:
     heeding = " or ".join([", ".join(others), last] if others else [last])
     if rule.of == "output":
         return f"{has} on a {value} (only on {heeding})"
+    if rule.values == _SEES_LIGHT:
+        return f"{has} with {rule.of} = {value}, which looks at no light"
     if not value:
         return f"{has} without {rule.of} = {heeding}"
     return f"{has} with {rule.of} = {value} (only with {heeding})"

@@ -86,6 +86,9 @@ def test_only_what_was_given_is_told_and_each_once():
     ]
     assert idle({"aov": "depth"}, ".png") == ["aov = depth has no effect on a .png (only on .exr)"]
     assert idle({"tone": "filmic"}, ".exr") == ["tone = filmic has no effect on a .exr (only on .png)"]
+    assert idle({"light": "a\nb", "estimator": "ambient-occlusion"}) == [
+        "light = a, b has no effect with estimator = ambient-occlusion, which looks at no light"
+    ]
     assert idle({"aov": "depth"}) == [], "an image in memory has it"
     assert idle({"region_points": "9"}) == ["region_points = 9 has no effect without aov = regions or all"]
     assert idle({"region_points": "9", "aov": "depth"}) == [
