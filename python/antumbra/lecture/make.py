@@ -173,7 +173,9 @@ def examine(figure: Figure, run: Run) -> dict[str, Any]:
         "equation": asdict(figure.equation),
         "claims": claims,
         "numbers": {name: quantity.facts() for name, quantity in measured.items()},
-        "command": f"antumbra lecture {run.name} -o lecture" + (" --quick" if run.quick else ""),
+        "command": f"antumbra lecture {run.name} -o lecture"
+        + (" --quick" if run.quick else "")
+        + (f" --seed {run.seed}" if run.seed else ""),
         "exr": [file for file in run.files if file.startswith("exr/")],
         "quick": run.quick,
         "seed": run.seed,

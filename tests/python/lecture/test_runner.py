@@ -5,6 +5,9 @@ from __future__ import annotations
 import errno
 import json
 import os
+import signal
+import subprocess
+import sys
 
 import pytest
 
@@ -63,6 +66,24 @@ def test_ctrl_c_keeps_what_is_finished_and_goes_on(two_figures, antumbra, tmp_pa
     monkeypatch.setattr(make, "examine", examine)
     assert antumbra("lecture", "--quick", "-o", "out").code == 0
     assert 'id="two"' in (tmp_path / "out/index.html").read_text()
+
+
+def test_ctrl_c_in_the_middle_of_a_picture(tmp_path):
+    process = subprocess.Popen(
+        [sys.executable, "-m", "antumbra", "lecture", "shadows", "-o", "out"],
+        cwd=tmp_path,
+        stderr=subprocess.PIPE,
+        text=True,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
+    )
+    assert process.stderr is not None
+    said = process.stderr.readline()
+    assert said.startswith("  lecture · 1 figure · about ")
+    process.send_signal(signal.SIGINT)
+    _, err = process.communicate(timeout=60)
+    assert process.returncode == 130
+    assert err == "stopped: 0 of 1 figure finished and kept in out; the same command goes on\n"
+    assert not [f for f in files(tmp_path) if "unfinished" in f]
 
 
 def test_a_full_disk_loses_nothing_that_is_finished(two_figures, antumbra, tmp_path, monkeypatch):
