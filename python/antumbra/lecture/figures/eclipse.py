@@ -141,8 +141,8 @@ FIGURE = Figure(
         Claim("The umbra is 373,600 km long, as similar triangles say.", "length", near=SKY.length(TURNS), within=600.0, main=True,
               measured="measured {length} (95 %), D·r/(R − r) " + f"= {SKY.length(TURNS):,.0f} km"),
         Claim("At 406,700 km the moon covers 87.1 % of the sun.", "hidden", near=SKY.covered(FAR, 0.0), within=0.002,
-              measured="measured {hidden}, " + f"lens formula {SKY.covered(FAR, 0.0):.2%}"),
+              measured="measured {hidden}, " + f"lens formula {100 * SKY.covered(FAR, 0.0):.2f} %"),
         Claim("1,500 km beside the axis it covers 45.4 %.", "beside", near=SKY.covered(FAR, 1500.0), within=0.004,
-              measured="measured {beside}, " + f"lens formula {SKY.covered(FAR, 1500.0):.2%}"),
+              measured="measured {beside}, " + f"lens formula {100 * SKY.covered(FAR, 1500.0):.2f} %"),
     ],
 )  # fmt: skip
