@@ -47,11 +47,10 @@ def run(
     except OSError as problem:
         what = problem.strerror or str(problem)
         raise click.UsageError(f"{output} cannot be written ({what}). Nothing was rendered.") from problem
-    waiting = lecture.waiting()
-    if not quiet:
-        print(_plan(lecture, waiting), file=sys.stderr, flush=True)
     began = time.monotonic()
     try:
+        if not quiet:
+            print(_plan(lecture, lecture.waiting()), file=sys.stderr, flush=True)
         with _Bar(quiet) as bar:
             lecture.run(bar.step, lambda result: None if quiet else bar.say(_line(result)))
     except KeyboardInterrupt:
