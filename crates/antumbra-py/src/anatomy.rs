@@ -11,8 +11,9 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 
 use crate::arrays::Rows;
-use crate::ask::{Origins, Wrong, watched};
+use crate::ask::{Origins, Wrong};
 use crate::scene::{PyScene, said};
+use crate::watch::watched;
 use crate::{errors, settings};
 
 type Counts<'py> = Bound<'py, PyArray2<u32>>;

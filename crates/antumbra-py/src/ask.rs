@@ -4,7 +4,7 @@ use std::ops::Range;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use antumbra::scene::Scene;
-use antumbra::schedule::{self, Flow};
+use antumbra::schedule;
 use antumbra::sensor::Query;
 use antumbra::trace::{NO_PRIM, SegmentBuffer};
 use numpy::ndarray::{ArrayView1, Axis, Slice};
@@ -13,6 +13,7 @@ use pyo3::prelude::*;
 use crate::arrays::{Rows, View};
 use crate::errors;
 use crate::receivers::{Receivers, Start};
+use crate::watch::watched;
 
 /// Where rays start: receivers of a hit, or bare points.
 #[derive(FromPyObject)]
@@ -160,24 +161,6 @@ impl Wrong {
             None => Ok(()),
         }
     }
-}
-
-/// Does `work` without Python's lock; `look` asks Python now and then whether Ctrl-C was pressed, which is raised.
-pub fn watched<R: Send>(
-    py: Python<'_>,
-    work: impl FnOnce(&mut dyn FnMut() -> Flow) -> R + Send,
-) -> PyResult<R> {
-    let mut raised = None;
-    let done = py.detach(|| {
-        work(&mut || match Python::attach(|py| py.check_signals()) {
-            Ok(()) => Flow::Continue,
-            Err(e) => {
-                raised = Some(e);
-                Flow::Stop
-            }
-        })
-    });
-    raised.map_or(Ok(done), Err)
 }
 
 fn single(name: &str, i: usize, row: [f64; 3]) -> Result<[f32; 3], String> {

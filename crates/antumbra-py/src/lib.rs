@@ -13,6 +13,7 @@ mod receivers;
 mod render;
 mod scene;
 mod settings;
+mod watch;
 
 use pyo3::prelude::*;
 

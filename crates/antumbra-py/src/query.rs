@@ -17,9 +17,10 @@ use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray1};
 use pyo3::prelude::*;
 
 use crate::arrays::{Rows, columns};
-use crate::ask::{Batch, Origins, Starts, Wrong, queries, watched};
+use crate::ask::{Batch, Origins, Starts, Wrong, queries};
 use crate::receivers::{Hits, Receivers};
 use crate::scene::PyScene;
+use crate::watch::watched;
 use crate::{errors, settings};
 
 type Words = Vec<(String, String)>;

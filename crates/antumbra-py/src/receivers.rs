@@ -12,8 +12,8 @@ use numpy::ndarray::Array2;
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray1};
 use pyo3::prelude::*;
 
-use crate::ask::watched;
 use crate::errors;
+use crate::watch::watched;
 
 /// Where a segment from a receiver starts.
 pub struct Start {
