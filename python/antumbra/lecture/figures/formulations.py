@@ -119,7 +119,7 @@ def _frames(run: Run, measured: Mapping[str, Quantity], at: float) -> tuple[Fram
         )
         maps.append(run.map(np.where(dark, -1, np.log10(np.maximum(relative, 0.1))), f"One of the {name} scatters by {np.median(relative[~dark]):.2g} of the light.",
                             name=f"{form}-{at}-scatter", low=-1.0, high=1.5))  # fmt: skip
-    for word, cost in (("samples", 1.0), ("time", measured["time-hemisphere"].value)):
+    for word, cost in (("rays", 1.0), ("time", measured["time-hemisphere"].value)):
         # Where no direction found the light, its scatter is not small but unknown.
         found = (scatter["hemisphere"] > 0) & (scatter["hemisphere"] * cost < scatter["area"])
         part = f"Directions are better in {100 * np.mean(found[~dark]):.0f} % of the pixels that get light, at equal {word}."
@@ -135,7 +135,7 @@ def _stage(run: Run, measured: Mapping[str, Quantity]) -> list[Part]:
     shown = [
         ("noise", "Pictures", "R", tuple(FORMS.values()), f"{run.pick(RAYS)} random samples a pixel, all through its centre."),
         ("variance", "Scatter", "radius", tuple(FORMS.values()), "Standard deviation of one sample over the light of the pixel: dark 0.1, white 30."),
-        ("better", "Who is better", "size", ("at equal samples", "at equal time"), "Yellow: points of the light; blue: directions; black: the light, and what it does "
+        ("better", "Who is better", "size", ("at equal rays", "at equal time"), "Yellow: points of the light; blue: directions; black: the light, and what it does "
          f"not reach. In this run a direction took {cost['hemisphere']} and a point of all surfaces {cost['surfaces']} times as long as a point of the light."),
     ]  # fmt: skip
     label = "Radius R of the light over the height h of the room, at the same power"
@@ -184,7 +184,7 @@ def _relative(form: str, at: float) -> float:
 
 
 FIGURE = Figure(
-    number=10, chapter=3, title="Three ways to sample one integral", seconds=Pick(8, 150),
+    number=10, chapter=3, title="Three ways to sample one integral", seconds=Pick(6, 140),
     question=Question(
         "The light grows. Which share of the hemisphere, counted with cos θ, must it fill before random directions are better than random points of it?",
         ("10 %", "a third", "half", "two thirds"), 3,
@@ -197,9 +197,8 @@ FIGURE = Figure(
     equation=Equation(
         [
             (r"L_o = \int_{\mark{\Omega}} f_r L_e \cos\theta \, \text{d}\omega", "L_o = ∫ over the hemisphere of f_r L_e cos θ dω"),
-            (r"L_o = \int_{\mark{A}} f_r L_e V \frac{\cos\theta \, \cos\theta'}{r^2} \, \text{d}A "
-             r"= \int_{\mark{A_L}} f_r L_e V \frac{\cos\theta \, \cos\theta'}{r^2} \, \text{d}A",
-             "L_o = ∫ over all surfaces of f_r L_e V cos θ cos θ′ / r² dA = the same ∫ over the lights"),
+            (r"\phantom{L_o} = \int_{\mark{A}} f_r L_e V \frac{\cos\theta \, \cos\theta'}{r^2} \, \text{d}A", "= ∫ over all surfaces of f_r L_e V cos θ cos θ′ / r² dA"),
+            (r"\phantom{L_o} = \int_{\mark{A_L}} f_r L_e V \frac{\cos\theta \, \cos\theta'}{r^2} \, \text{d}A", "= ∫ over the lights of f_r L_e V cos θ cos θ′ / r² dA"),
         ],
         "Marked: what is sampled. The value is the same; Lₑ is 0 for most directions and most surfaces, and 1/r² has no bound in corners.",
     ),

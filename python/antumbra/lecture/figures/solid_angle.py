@@ -160,13 +160,15 @@ def _stage(run: Run, measured: Mapping[str, Quantity]) -> list[Part]:
 
 
 FIGURE = Figure(
-    number=9, chapter=3, title="How much of the sky is light", seconds=Pick(5, 60),
+    number=9, chapter=3, title="How much of the sky is light", seconds=Pick(3, 20),
     question=Question("A square light of 2 × 2 hangs 1 above the receiver. Which share of all directions upward finds it?", ("1/6", "1/4", "1/3", "1/2"), 2),
     variants=[], measure=_measure, stage=_stage,
     answer=Number("share-square above", "of the directions find it: Ω = 2π/3. Points of its area, each counted with cos θ′/r², say {area-square above}."),
     equation=Equation(
-        [(r"\Omega = \int \text{d}\omega = \int_{A_L} \mark{\frac{\cos\theta'}{r^2}} \, \text{d}A \approx \frac{A_L}{N} \sum_{j=1}^{N} \mark{\frac{\cos\theta'_j}{r_j^2}}",
-          "Ω = ∫ dω = ∫ over the light of cos θ′ / r² dA ≈ A/N · sum of cos θ′ / r²")],
+        [
+            (r"\Omega = \int \text{d}\omega = \int_{A_L} \mark{\frac{\cos\theta'}{r^2}} \, \text{d}A", "Ω = ∫ dω = ∫ over the light of cos θ′ / r² dA"),
+            (r"\Omega \approx \frac{A_L}{N} \sum_{j=1}^{N} \mark{\frac{\cos\theta'_j}{r_j^2}}", "Ω ≈ A / N · sum over N points of cos θ′ / r²"),
+        ],
         "Marked: what a piece of area is worth as a piece of the hemisphere.",
     ),
     claims=[
