@@ -91,7 +91,7 @@ class Lecture:
             result = self._one(name, report)
             stated, took = stated + self._stated(name), took + result["seconds"]
             self._speed = took / stated
-            self.write()
+            self.write(single=False)
             finished(result)
         self.write()
 
@@ -109,7 +109,7 @@ class Lecture:
 
     # ---- the page ----
 
-    def write(self) -> None:
+    def write(self, *, single: bool | None = None) -> None:
         """Writes index.html and lecture.json with everything that is finished in the folder."""
         found = [result for name in catalog.ordered() if (result := self.folder.kept(name))]
         chapters = []
@@ -124,7 +124,7 @@ class Lecture:
         contents, foot = self._contents(found), _foot(found)
         text = (
             page.single(chapters, contents, data, foot, self.folder.path)
-            if self.single
+            if (self.single if single is None else single)
             else page.html(chapters, contents, data, foot)
         )
         self.folder.write("index.html", text)

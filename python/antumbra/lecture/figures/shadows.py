@@ -14,7 +14,7 @@ from antumbra.lecture.stages import Frame, Strip
 
 SCALES = [round(1 - 0.04 * step, 2) for step in range(12)]
 LOOK = {
-    "estimator": "area", "viewing_rays": Pick(4, 16), "size": Pick((240, 168), (840, 588)),
+    "estimator": "area", "viewing_rays": Pick(4, 8), "size": Pick((240, 168), (840, 588)),
     "eye": EYE, "look_at": (0.35, 0.3, 0.2), "fov": 0.6,
 }  # fmt: skip
 
@@ -47,7 +47,7 @@ def _stage(run: Run, measured: Mapping[str, Quantity]) -> list[Strip]:
 
 
 FIGURE = Figure(
-    number=1, chapter=1, title="Where is the ball?", seconds=Pick(4, 60),
+    number=1, chapter=1, title="Where is the ball?", seconds=Pick(4, 80),
     question=Question(
         "The left ball is slid towards the eye and made smaller, so that it always covers the same pixels. "
         "Which of the two pictures tells?",
