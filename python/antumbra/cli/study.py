@@ -148,8 +148,8 @@ def _told(found: Study, folder: Path) -> str:
 
     flagged = found.flagged()
     said = f"{_say.some(len(flagged), 'row')} of {len(found.rows)} biased" if flagged else "no bias found"
-    if not found.reference:
-        said = "bias not tested: no reference"
+    if not found.tested():
+        said = "bias was not tested"
     return "\n".join(
         [
             *short_table(found),

@@ -58,6 +58,10 @@ class Findings:
         """Rows whose mean differs from the reference by more than noise explains."""
         return [r for r in self.rows if r.bias is not None and r.bias.flagged]
 
+    def tested(self) -> bool:
+        """Whether there is a reference, and light in it."""
+        return any(r.bias is not None and r.true_mean for r in self.rows)
+
     def error(self, row: Row) -> Interval | None:
         """Root mean square error of a row: without bias, the standard deviation over seeds, which needs no reference.
 

@@ -203,11 +203,23 @@ def _varied(plan: Plan) -> set[tuple[str, float]]:
 
 
 def _about_reference(rows: list[Row]) -> list[tuple[str, str, str]]:
-    """A warning where the test of bias is blunt."""
+    """A warning where the test of bias is blunt, or impossible."""
+    tested = [r for r in rows if r.bias is not None]
+    if any(r.mean and not r.true_mean for r in tested):
+        what = "the reference found no light: bias was not tested (--reference names another estimator or picture)"
+        return [("warning", "", what)]
     blunt = max(
-        (r.bias.difference.half / abs(r.true_mean) for r in rows if r.bias and r.true_mean), default=0.0
+        (r.bias.difference.half / abs(r.true_mean) for r in tested if r.bias and r.true_mean), default=0.0
     )
     if blunt <= _BLUNT:
         return []
-    what = f"a bias below {100 * blunt:.2g} % of the mean is hidden by noise here: more seeds or reference rays help"
-    return [("note", "", what)]
+    hidden = (
+        f"a bias below {100 * blunt:.0f} % of the mean" if blunt < 1 else "a bias even as large as the mean"
+    )
+    return [
+        (
+            "note",
+            "",
+            f"{hidden} is hidden by noise here: more seeds or reference rays, or another reference, help",
+        )
+    ]

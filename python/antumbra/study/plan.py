@@ -154,7 +154,7 @@ def _check_fixed(
             raise OptionError(
                 f"{name.replace('_', '-')} is varied and also given a fixed value: one of the two"
             )
-    for name in ("passes", "aov"):
+    for name in ("passes", "aov", "exposure", "exr", "tone"):
         if name in words:
             raise OptionError(f"{name.replace('_', '-')} has no place in a study: {_REFUSED[name]}")
 

@@ -78,7 +78,9 @@ class Row:
     @property
     def true_mean(self) -> float:
         """Mean of the reference over the picture, or of the row itself without one."""
-        return self.mean - self.bias.difference.value if self.bias else self.mean
+        found = self.mean - self.bias.difference.value if self.bias else self.mean
+        # What is left of a difference of equal numbers in double precision is nothing.
+        return 0.0 if abs(found) < 1e-12 * abs(self.mean) else found
 
     @property
     def noisy(self) -> bool:

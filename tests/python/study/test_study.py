@@ -251,3 +251,13 @@ def test_occlusion_has_no_second_kind():
     assert found.reference == "" and all(row.mse is None for row in found.rows)
     assert found.slope("ambient-occlusion").value < -0.5
     assert "only the variance is measured" in found.html()
+
+
+def test_a_reference_that_finds_no_light_tests_nothing():
+    # The sun of the eclipse is half a degree wide: few directions find it, and none of these.
+    found = study(
+        "eclipse", vary={"estimator": ["area"]}, viewing_rays=4, reference="hemisphere", size=(8, 6)
+    )
+    assert not found.tested() and not found.flagged()
+    assert any("found no light" in text for _, _, text in found.messages)
+    assert "–" in found.html()
