@@ -2,7 +2,8 @@
 
 pub use libm::{acos, asin, atan, atan2, cbrt, ceil, cos, exp, floor, log, pow, round, sin, sincos, tan};
 pub use libm::{
-    acosf, asinf, atan2f, atanf, cosf, exp2f, expf, floorf, log2f, logf, powf, roundf, sinf, tanf,
+    acosf, asinf, atan2f, atanf, cosf, erfcf, erff, exp2f, expf, floorf, log2f, logf, powf, roundf, sinf,
+    tanf,
 };
 
 pub use std::f32::consts::PI;

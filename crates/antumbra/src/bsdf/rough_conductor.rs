@@ -25,6 +25,11 @@ impl RoughConductor {
         RoughConductor { metal, reflectance, facets, kept: facets.kept() }
     }
 
+    /// Its facets.
+    pub fn facets(&self) -> Facets {
+        self.facets
+    }
+
     /// F of a facet whose normal halves the directions; `v` = ω_o + ω_i, so that ω_o·m = |v|/2.
     #[inline]
     fn fresnel(&self, half_length: f32) -> Rgb {
@@ -82,6 +87,8 @@ impl BsdfKind for RoughConductor {
         let perfect = Metal { eta: Rgb::grey(1e-3), k: Rgb::grey(1e3) };
         let mut all: Vec<_> =
             [of("Au", 0.1, 0.1), of("Cr", 0.5, 0.5), of("Al", 0.05, 0.3)].into_iter().flatten().collect();
+        all.push(RoughConductor::new(perfect, Rgb::WHITE, Facets::beckmann(0.3, 0.3)));
+        all.push(RoughConductor::new(perfect, Rgb::WHITE, Facets::beckmann(0.05, 0.5)));
         for alpha in [0.0, 0.25, 1.0] {
             all.push(RoughConductor::new(perfect, Rgb([1.0, 0.5, 0.0]), Facets::isotropic(alpha)));
         }

@@ -61,6 +61,11 @@ impl RoughDielectric {
         sum / (n * n * n * n) as f32
     }
 
+    /// Its facets.
+    pub fn facets(&self) -> Facets {
+        self.facets
+    }
+
     /// The same surface seen from its other side.
     pub fn turned(self) -> RoughDielectric {
         RoughDielectric { eta: 1.0 / self.eta, ..self }

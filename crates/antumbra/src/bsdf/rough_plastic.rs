@@ -50,6 +50,11 @@ impl RoughCoat {
         RoughCoat { internal: (0..n).map(share).sum::<f32>() / n as f32, ..self }
     }
 
+    /// Its facets.
+    pub fn facets(&self) -> Facets {
+        self.facets
+    }
+
     /// E(μ): a cubic through the four nearest places.
     #[inline]
     fn share(&self, mu: f32) -> f32 {

@@ -5,6 +5,7 @@ use antumbra_trace::{Pool, Shape, Triangles};
 
 use super::parts::Parts;
 use super::{Body, Level, Material, Mesh, Message, Object, Scene, SceneBuilder, SceneError, Tangents};
+use crate::texture::Texture;
 
 impl SceneBuilder {
     /// Checks everything and builds the tree, in the calling thread.
@@ -147,20 +148,21 @@ impl SceneBuilder {
         Ok(())
     }
 
-    /// Meshes under a normal map get tangents if they bring none.
+    /// Meshes under a normal map or with facets of two widths get tangents if they bring none.
     fn make_tangents(&mut self) {
         for object in &self.objects {
             let Body::Mesh(m) = object.body else { continue };
-            let Some(map) = self.materials[object.material as usize].normal else { continue };
+            let material = &self.materials[object.material as usize];
+            let map = material.normal.map(|map| &self.textures[map.texture as usize]);
             let mesh = &mut self.meshes[m as usize];
-            if mesh.tangents.is_some() {
+            if mesh.tangents.is_some() || (map.is_none() && !material.surface.is_stretched()) {
                 continue;
             }
-            let texture = &self.textures[map.texture as usize];
             // A map that turns v round (OBJ) makes it grow upwards on the mesh.
-            let downwards = texture.map[0] * texture.map[4] - texture.map[1] * texture.map[3] >= 0.0;
-            mesh.tangents = Tangents::made(mesh, texture.uv_set as usize, downwards);
-            if mesh.tangents.is_none() {
+            let turns = |t: &Texture| t.map[0] * t.map[4] - t.map[1] * t.map[3] < 0.0;
+            let set = map.map_or(0, |map| map.uv_set as usize);
+            mesh.tangents = Tangents::made(mesh, set, !map.is_some_and(turns));
+            if mesh.tangents.is_none() && map.is_some() {
                 let place = format!("object \"{}\"", object.name);
                 let text = "has a normal map and no texture coordinates: drawn without it".to_string();
                 self.messages.push(Message { level: Level::Warning, place, text });

@@ -84,6 +84,18 @@ impl Surface {
         }
     }
 
+    /// Its facets are wider along one tangent than along the other, so that it matters where the tangents lie.
+    pub(super) fn is_stretched(&self) -> bool {
+        let facets = match self {
+            Surface::RoughConductor(c) => c.facets(),
+            Surface::RoughDielectric(d) => d.facets(),
+            Surface::RoughPlastic { coat, .. } => coat.facets(),
+            _ => return false,
+        };
+        let [u, v] = facets.alpha();
+        u != v
+    }
+
     /// Gives it a colour: its albedo, reflectance, or what it lets through.
     pub fn tint(&mut self, by: Rgb) {
         let color = self.colors().0;

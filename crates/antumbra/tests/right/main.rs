@@ -16,6 +16,7 @@ mod instances;
 mod judge;
 mod lengths;
 mod masks;
+mod normal_maps;
 mod pictures;
 mod planes;
 mod regions;
