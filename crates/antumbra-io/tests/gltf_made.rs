@@ -220,8 +220,8 @@ fn glass_and_normal_maps() {
     let mut made = Made::default();
     made.floats("VEC3", 3, &TRIANGLE);
     made.floats("VEC3", 3, &[0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0]);
-    made.floats("VEC2", 3, &[0.0, 1.0, 1.0, 1.0, 0.0, 0.0]);
-    made.floats("VEC4", 3, &[1.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 1.0]);
+    made.floats("VEC2", 2, &[0.0, 1.0, 1.0, 1.0, 0.0, 0.0]);
+    made.floats("VEC4", 4, &[1.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 1.0]);
     let attributes = r#"{"POSITION":0,"NORMAL":1,"TEXCOORD_0":2,"TANGENT":3}"#;
     let primitives: Vec<_> =
         (0..4).map(|m| format!(r#"{{"attributes":{attributes},"material":{m}}}"#)).collect();
