@@ -117,8 +117,8 @@ def _slopes(study: Findings) -> list[tuple[str, Interval]]:
 
 def _against_independent(slope: Interval) -> str:
     if slope.contains(-1.0):
-        return "as independent samples do"
-    return "faster than independent samples" if slope.high < -1 else "slower than independent samples"
+        return "as 1/N"
+    return "faster than 1/N" if slope.high < -1 else "slower than 1/N"
 
 
 def _line(study: Findings, row: Row) -> dict[str, Any]:

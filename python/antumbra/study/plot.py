@@ -46,7 +46,7 @@ CSS = """\
 _LEFT, _RIGHT, _TOP, _HEIGHT, _BELOW = 64.0, 470.0, 48.0, 326.0, 66.0
 _NAME_GAP, _NAMES, _LETTER, _LARGE_LETTER = 14.0, 136.0, 8.0, 12.0
 # Names with a second label under them, and names alone, stand at least so far apart; ticks of an axis likewise.
-_APART, _APART_ALONE, _TICKS_APART = 38.0, 20.0, 30.0
+_APART, _APART_ALONE, _TICKS_APART = 38.0, 24.0, 30.0
 _SHAPES = ("o", "s", "^", "D", "v", "P", "X", "p")
 
 
