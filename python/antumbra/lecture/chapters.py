@@ -34,7 +34,7 @@ SEGMENT = (
 
 _SIZE = Pick((280, 196), (560, 392))
 _VIEW = {"size": _SIZE, "eye": (-7.4, 5.6, 5.4), "look_at": (0.3, 0.55, 0.3), "fov": 0.5}
-_PILLARS = _VIEW | {"estimator": "area", "viewing_rays": Pick(4, 64), "shadow_rays": Pick(4, 16)}
+_PILLARS = _VIEW | {"estimator": "area", "viewing_rays": Pick(4, 16), "shadow_rays": 4}
 _ONE_RAY = _VIEW | {"viewing": "centre", "viewing_rays": 1, "light_points": "area", "sampler": "random"}
 
 
