@@ -96,14 +96,14 @@ class Lecture:
         self.write()
 
     def _one(self, name: str, report: Callable[[float], object]) -> dict[str, Any]:
+        key_of_it, began = self._key(name), time.perf_counter()
         with self.folder.beside() as beside:
-            began = time.perf_counter()
             run = Run(name, beside, quick=self.quick, seed=self.seed, report=report)
             if name in self.figures:
                 result = examine(self.figures[name], run)
             else:
                 result = open_chapter(next(c for c in CHAPTERS if _opening(c) == name), run)
-            result |= {"key": self._key(name), "seconds": time.perf_counter() - began}
+            result |= {"key": key_of_it, "seconds": time.perf_counter() - began}
             self.folder.finish(beside, result)
         return result
 
