@@ -89,8 +89,16 @@ pub struct Buffers {
     weights: LightWeights,
 }
 
-/// Sums what arrives at the cells of `tile` in `passes` into `film`.
-pub fn illuminate(job: &Job<'_>, tile: Tile, passes: Range<u32>, film: &mut Film, b: &mut Buffers) -> Counts {
+/// Sums what arrives at the cells of `tile` in `passes` into `film`; `None` if it was stopped, the film being worthless
+/// then. `stopped` is asked once a batch.
+pub fn illuminate(
+    job: &Job<'_>,
+    tile: Tile,
+    passes: Range<u32>,
+    film: &mut Film,
+    b: &mut Buffers,
+    stopped: &dyn Fn() -> bool,
+) -> Option<Counts> {
     let mut counts = Counts::default();
     let looking = Looking {
         scene: job.scene,
@@ -112,11 +120,11 @@ pub fn illuminate(job: &Job<'_>, tile: Tile, passes: Range<u32>, film: &mut Film
             if b.receivers.is_empty() {
                 break;
             }
-            bounce(job, &draws, film, b, &mut counts);
+            bounce(job, &draws, film, b, &mut counts, stopped)?;
         }
         film.next_sample();
     }
-    counts
+    Some(counts)
 }
 
 /// Samples per receiver times receivers that are proposed at once: bounds what the buffers take.
@@ -129,10 +137,20 @@ fn runs<'a>(receivers: &'a [Receiver], draws: &Draws<'_>) -> impl Iterator<Item 
 }
 
 /// One step of the loop: the receivers propose, visibility answers, the film sums, the rays make the next receivers.
-fn bounce(job: &Job<'_>, draws: &Draws<'_>, film: &mut Film, b: &mut Buffers, counts: &mut Counts) {
+fn bounce(
+    job: &Job<'_>,
+    draws: &Draws<'_>,
+    film: &mut Film,
+    b: &mut Buffers,
+    counts: &mut Counts,
+    stopped: &dyn Fn() -> bool,
+) -> Option<()> {
     let receivers = std::mem::take(&mut b.receivers);
     b.next.clear();
     for run in runs(&receivers, draws) {
+        if stopped() {
+            return None;
+        }
         b.proposals.clear();
         job.estimator.propose(job.scene, run, draws, &mut b.proposals);
         for carried in free(job, b, counts) {
@@ -142,6 +160,7 @@ fn bounce(job: &Job<'_>, draws: &Draws<'_>, film: &mut Film, b: &mut Buffers, co
         follow(job, run, film, b, counts);
     }
     b.receivers = std::mem::replace(&mut b.next, receivers);
+    Some(())
 }
 
 /// What the free segments carry.

@@ -137,11 +137,12 @@ fn rounds(plan: &PassPlan) -> Vec<Round> {
 
 /// Computes one block, unless the render was stopped.
 fn compute(job: &Job<'_>, passes: Range<u32>, slot: &mut Slot, shared: &Shared, buffers: &mut Buffers) {
-    if shared.stop.load(Ordering::Relaxed) {
+    let stopped = || shared.stop.load(Ordering::Relaxed);
+    if stopped() {
         return;
     }
     slot.block.clear();
-    let counts = illuminate(job, slot.tile, passes, &mut slot.block, buffers);
+    let Some(counts) = illuminate(job, slot.tile, passes, &mut slot.block, buffers, &stopped) else { return };
     slot.done = true;
     shared.rays[0].fetch_add(counts.segments, Ordering::Relaxed);
     shared.rays[1].fetch_add(counts.rays, Ordering::Relaxed);
