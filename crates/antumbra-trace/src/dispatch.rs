@@ -3,7 +3,7 @@
 use fearless_simd::{Simd, dispatch};
 
 use crate::level::SimdLevel;
-use crate::traverse::{Asking, Lines, Masks, Opaque};
+use crate::traverse::{Asking, CHUNK, Lines, Masks, Opaque, Ready};
 use crate::walk;
 use crate::world::World;
 use crate::{Bits, Hits, Passes, Segments, Visibility};
@@ -66,14 +66,13 @@ impl<P: Passes> Visibility for Masked<'_, P> {
 fn occluded<S: Simd>(simd: S, world: &World, segments: &Segments<'_>, masks: &impl Masks, out: &mut Bits) {
     out.reset(segments.len());
     let lines = Lines::of(segments);
-    for word in 0..segments.len().div_ceil(64) {
-        let mut bits = 0;
-        for i in 64 * word..segments.len().min(64 * word + 64) {
-            if walk::occluded(simd, world, segments, lines.line(i), i, masks) {
-                bits |= 1 << (i % 64);
-            }
+    let mut ready = Ready::EMPTY;
+    for from in (0..segments.len()).step_by(CHUNK) {
+        let count = CHUNK.min(segments.len() - from);
+        let answers = walk::occluded(simd, world, (segments, &lines), (from, count), masks, &mut ready);
+        for (k, word) in answers.into_iter().take(count.div_ceil(64)).enumerate() {
+            out.set_word(from / 64 + k, word);
         }
-        out.set_word(word, bits);
     }
 }
 

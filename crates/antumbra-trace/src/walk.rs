@@ -5,33 +5,58 @@ use fearless_simd::Simd;
 use crate::law::Line;
 use crate::object::Object;
 use crate::traverse::{
-    AnyTriangle, Ask, Best, Count, ExactTriangles, FastLine, Masks, NearestTriangle, NotCounted, ShapeTree,
-    ShapeVisit, TriangleTree, VisitAny, VisitNearest, any_hit, any_hit_exact, nearest_hit, nearest_hit_exact,
+    Answers, AnyTriangle, Ask, Best, Chunk, Count, ExactTriangles, FastLine, Lines, Masks,
+    NearestTriangle, NotCounted, Ready, ShapeTree, ShapeVisit, TriangleTree, VisitAny, VisitNearest, any_hit,
+    any_hit_exact, nearest_hit, nearest_hit_exact,
 };
 use crate::world::World;
 use crate::{Hits, NO_PRIM, Segments};
 
-/// Whether entry `i`, rounded to `line`, is blocked.
+/// Which of the entries `from` … `from` + `count` − 1 (at most [`CHUNK`]) are blocked.
 #[inline(always)]
 pub(crate) fn occluded<S: Simd, M: Masks>(
     simd: S,
     world: &World,
-    segments: &Segments<'_>,
-    line: FastLine,
-    i: usize,
+    (segments, lines): (&Segments<'_>, &Lines<'_>),
+    (from, count): (usize, usize),
     masks: &M,
-) -> bool {
-    let ask = Ask::world(segments, i, masks);
-    if !world.triangles.tree.is_empty() && any_triangle::<S, M, false>(simd, &world.triangles, &line, &ask) {
-        return true;
+    ready: &mut Ready,
+) -> Answers {
+    let mut answers = Answers::default();
+    if !world.triangles.tree.is_empty() {
+        let chunk = Chunk { of: &world.triangles, segments, lines, masks, from, count };
+        answers = chunk.blocked(simd, ready, |i, line| {
+            simd.vectorize(
+                #[inline(always)]
+                || {
+                    any_triangle::<S, M, false>(
+                        simd,
+                        &world.triangles,
+                        &line,
+                        &Ask::world(segments, i, masks),
+                    )
+                },
+            )
+        });
     }
     if world.shapes.tree.is_empty() && world.places.places.is_empty() {
-        return false;
+        return answers;
     }
     simd.vectorize(
         #[inline(always)]
-        || any_other(simd, world, &line, &ask),
-    )
+        || {
+            for i in 0..count {
+                if answers[i / 64] >> (i % 64) & 1 == 1 {
+                    continue;
+                }
+                let ask = Ask::world(segments, from + i, masks);
+                if any_other(simd, world, &lines.line(from + i), &ask) {
+                    answers[i / 64] |= 1 << (i % 64);
+                }
+            }
+        },
+    );
+    answers
 }
 
 /// The closest hit of entry `i`, rounded to `line`, written to `out`.

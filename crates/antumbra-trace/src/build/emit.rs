@@ -53,7 +53,7 @@ impl<'a> Subtree<'a> {
         right.gather(slots - to_left, out);
     }
 
-    /// The children of the wide node that this subtree becomes, best blocker first.
+    /// The children of the wide node that this subtree becomes, best blocker last.
     fn children(self, plan: &Plan) -> Vec<Subtree<'a>> {
         let mut out = Vec::with_capacity(WIDTH);
         match self.nodes.first() {
@@ -65,7 +65,7 @@ impl<'a> Subtree<'a> {
             }
             _ => out.push(self),
         }
-        out.sort_by(|a, b| b.merit(plan).total_cmp(&a.merit(plan)));
+        out.sort_by(|a, b| a.merit(plan).total_cmp(&b.merit(plan)));
         out
     }
 

@@ -7,7 +7,7 @@ mod node;
 mod triangles;
 
 pub(crate) use memory::{filled, roomy};
-pub(crate) use node::{Child, Node, WIDTH, above, below};
+pub(crate) use node::{Child, Node, Row, WIDTH, above, below};
 pub(crate) use triangles::TriangleBlock;
 
 use crate::NO_PRIM;

@@ -1,5 +1,7 @@
 //! A node: eight padded boxes side by side.
 
+use fearless_simd::{Simd, f32x8, prelude::*, u32x8};
+
 use super::Bounds;
 
 /// Children of a node, lanes of a leaf block.
@@ -38,7 +40,8 @@ impl Child {
 }
 
 /// Eight boxes and where they lead, 256 bytes in four cache lines. Boxes come padded (LAW §3); unused lanes hold an
-/// empty box. Children stand in the order in which an any-hit query of a line without end visits them.
+/// empty box. Children stand in the order opposite to that in which an
+/// any-hit query of a line without end visits them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C, align(64))]
 pub(crate) struct Node {
@@ -74,9 +77,37 @@ impl Node {
         self.child[lane] = child;
     }
 
+    /// Eight planes.
+    #[inline(always)]
+    pub fn row(&self, row: Row) -> &[f32; WIDTH] {
+        let first = self.planes.as_ptr().cast::<f32>();
+        // SAFETY: a `Row` is 0, 8 … 40: its own constructors make no other. So eight of the 48 numbers of `planes` begin
+        // there, and they live as long as `self`.
+        unsafe { &*first.add(row.0 as usize).cast::<[f32; WIDTH]>() }
+    }
+
     /// How many children there are.
     pub fn count(&self) -> usize {
         self.child.iter().filter(|&&c| c != Child::NONE).count()
+    }
+}
+
+/// A row of planes in a node, as the place of its first number: 0, 8 … 40.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Row(u32);
+
+impl Row {
+    /// Lower x.
+    pub const FIRST: Row = Row(0);
+
+    /// The rows of near and far planes on `axis` (0, 1, 2) of eight lines with the direction components `r`.
+    #[inline(always)]
+    pub fn pairs<S: Simd>(simd: S, r: f32x8<S>, axis: usize) -> [[Row; WIDTH]; 2] {
+        let lower = u32x8::splat(simd, (axis % 3 * WIDTH) as u32);
+        let upper = lower + (3 * WIDTH) as u32;
+        let down = r.simd_lt(0.0);
+        let rows = |x: u32x8<S>| x.to_array().map(Row);
+        [rows(down.select(upper, lower)), rows(down.select(lower, upper))]
     }
 }
 

@@ -2,13 +2,13 @@
 
 use std::mem::MaybeUninit;
 
-use fearless_simd::{Simd, f32x8, prelude::*};
+use fearless_simd::{Simd, f32x8, mask32x8, prelude::*};
 
 use super::ray::{BoxRay, FastLine};
 use crate::layout::{Child, MAX_DEPTH, Node, WIDTH};
 
 /// 1 + 2⁻²⁰: how much a far plane is moved away.
-const FAR_SLACK: f32 = 1.0 + 1.0 / 1_048_576.0;
+pub(crate) const FAR_SLACK: f32 = 1.0 + 1.0 / 1_048_576.0;
 
 /// What an any-hit query does at a leaf block.
 pub(crate) trait VisitAny<S: Simd> {
@@ -35,7 +35,7 @@ pub(crate) trait VisitNearest<S: Simd> {
 /// moving the plane by 2⁻²⁴ M; with the moves of o by its own rounding (instances) and that of o·r it makes three of
 /// the four such units that the pad has.
 #[inline(always)]
-fn meet<S: Simd>(simd: S, node: &Node, ray: &BoxRay<S>, tmax: f32x8<S>) -> (u32, f32x8<S>) {
+fn meet<S: Simd>(simd: S, node: &Node, ray: &BoxRay<S>, tmax: f32x8<S>) -> (mask32x8<S>, f32x8<S>) {
     let [nx, ny, nz] = ray.near;
     let plane = |row: usize| f32x8::load_array_ref(simd, &node.planes[row]);
     let [fx, fy, fz] = ray.far;
@@ -48,7 +48,7 @@ fn meet<S: Simd>(simd: S, node: &Node, ray: &BoxRay<S>, tmax: f32x8<S>) -> (u32,
     let enter = x0.max(y0).max(z0.max(f32x8::splat(simd, 0.0)));
     let leave = x1.min(y1).min(z1.min(tmax));
     let pass = enter.simd_le(leave * FAR_SLACK);
-    (pass.to_bitmask() as u32, enter)
+    (pass, enter)
 }
 
 /// Asks for the memory of element `i`; what is not there is not asked for.
@@ -127,12 +127,13 @@ pub(crate) fn any_hit<S: Simd>(
             }
         } else {
             let node = &nodes[at.index()];
-            let (met, enter) = meet(simd, node, &ray, tmax);
+            let (pass, enter) = meet(simd, node, &ray, tmax);
+            let met = pass.to_bitmask() as u32;
             if met & met.wrapping_sub(1) != 0 {
                 at = if ends {
                     nearest_child(node, met, &enter.to_array(), &mut stack)
                 } else {
-                    first_child(node, met, &mut stack)
+                    last_child(node, met, &mut stack)
                 };
                 if let Some((_, next)) = stack.top() {
                     visit.fetch(nodes, next);
@@ -149,14 +150,12 @@ pub(crate) fn any_hit<S: Simd>(
     }
 }
 
-/// The first child of `met`; the others go on the stack, first on top.
+/// The last child of `met`; the others go on the stack, last on top.
 #[inline(always)]
-fn first_child<const N: usize>(node: &Node, met: u32, stack: &mut Stack<(f32, Child), N>) -> Child {
-    let mut left = met & (met - 1);
-    while left != 0 {
-        let lane = 31 - left.leading_zeros();
-        left ^= 1 << lane;
-        stack.push((0.0, node.child[lane as usize % WIDTH]));
+fn last_child<const N: usize>(node: &Node, mut met: u32, stack: &mut Stack<(f32, Child), N>) -> Child {
+    while met & (met - 1) != 0 {
+        stack.push((0.0, node.child[met.trailing_zeros() as usize % WIDTH]));
+        met &= met - 1;
     }
     node.child[met.trailing_zeros() as usize % WIDTH]
 }
@@ -178,7 +177,8 @@ pub(crate) fn nearest_hit<S: Simd>(
             tmax = visit.nearest(simd, at.index());
         } else {
             let node = &nodes[at.index()];
-            let (met, enter) = meet(simd, node, &ray, f32x8::splat(simd, tmax));
+            let (pass, enter) = meet(simd, node, &ray, f32x8::splat(simd, tmax));
+            let met = pass.to_bitmask() as u32;
             if met != 0 {
                 at = nearest_child(node, met, &enter.to_array(), &mut stack);
                 continue;

@@ -77,7 +77,7 @@ pub(crate) fn any_hit_exact(
         let first = stack.len();
         let met = |lane| Some((meet(node, lane, line, line.tmax)?, node.child[lane]));
         // The best child ends on top: in stored order, or the nearest (as the f32 way does).
-        stack.extend((0..WIDTH).rev().filter_map(met));
+        stack.extend((0..WIDTH).filter_map(met));
         if ends {
             stack[first..].sort_by(|a, b| b.0.total_cmp(&a.0));
         }

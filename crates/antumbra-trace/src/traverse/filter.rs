@@ -7,7 +7,7 @@ use super::vector::V3;
 use crate::layout::{TriangleBlock, WIDTH};
 
 /// 2⁻²⁴, half a unit in the last place of 1.
-const U: f32 = 1.0 / 16_777_216.0;
+pub(crate) const U: f32 = 1.0 / 16_777_216.0;
 /// 2⁻¹²⁰: covers what underflows.
 const TINY: f32 = f32::from_bits(7 << 23);
 
@@ -35,6 +35,12 @@ impl<S: Simd> TriangleRay<S> {
             edge: f32x8::splat(simd, 40.0 * U * d1),
             off: f32x8::splat(simd, off),
         }
+    }
+
+    /// A line of world space with its edge bound.
+    #[inline(always)]
+    pub fn world(simd: S, o: V3<S>, d: V3<S>, edge: f32) -> TriangleRay<S> {
+        TriangleRay { o, d, edge: f32x8::splat(simd, edge), off: f32x8::splat(simd, 0.0) }
     }
 }
 

@@ -47,6 +47,13 @@ impl<'a> Lines<'a> {
         }
     }
 
+    /// Origin, end and reach by component.
+    #[inline(always)]
+    pub fn columns(&self) -> [&'a [f32]; 7] {
+        let ([a, b, c], [d, e, f]) = (self.origin, self.end);
+        [a, b, c, d, e, f, self.reach]
+    }
+
     /// Entry i.
     #[inline(always)]
     pub fn line(&self, i: usize) -> FastLine {
@@ -67,7 +74,7 @@ pub(crate) fn size(v: &[f32; 3]) -> f32 {
 }
 
 /// 2^k as f32.
-const fn power(k: i32) -> f32 {
+pub(crate) const fn power(k: i32) -> f32 {
     f32::from_bits(((127 + k) as u32) << 23)
 }
 
@@ -108,6 +115,24 @@ impl Limits {
         let far = smaller(self.origin, power(66) * d);
         within(&line.o, far) & within(&line.d, power(38)) & (d >= power(-40)) & (line.tmax > 0.0)
     }
+
+    /// [`hold`](Limits::hold) of eight lines; `size`: |d|∞.
+    #[inline(always)]
+    pub fn hold_eight<S: Simd>(
+        &self,
+        simd: S,
+        o: &[f32x8<S>; 3],
+        d: &[f32x8<S>; 3],
+        size: f32x8<S>,
+        tmax: f32x8<S>,
+    ) -> u64 {
+        let far = f32x8::splat(simd, self.origin).min(size * power(66));
+        let within = |v: &[f32x8<S>; 3], limit: f32x8<S>| {
+            v[0].abs().simd_le(limit) & v[1].abs().simd_le(limit) & v[2].abs().simd_le(limit)
+        };
+        let fine = size.simd_ge(power(-40)) & tmax.simd_gt(0.0);
+        (within(o, far) & within(d, f32x8::splat(simd, power(38))) & fine).to_bitmask()
+    }
 }
 
 /// A line as boxes see it: t of a plane x = p is p·r − o·r.
@@ -129,13 +154,14 @@ impl<S: Simd> BoxRay<S> {
     pub fn new(simd: S, line: &FastLine) -> BoxRay<S> {
         let d = &line.d;
         let eta = power(-60) * size(d);
-        let (rx, ry, rz) = (reciprocal(d[0], eta), reciprocal(d[1], eta), reciprocal(d[2], eta));
+        let r = [reciprocal(d[0], eta), reciprocal(d[1], eta), reciprocal(d[2], eta)];
+        let or = [-(line.o[0] * r[0]), -(line.o[1] * r[1]), -(line.o[2] * r[2])];
         let lane = |x: f32| f32x8::splat(simd, x);
         BoxRay {
-            r: [lane(rx), lane(ry), lane(rz)],
-            or: [lane(-(line.o[0] * rx)), lane(-(line.o[1] * ry)), lane(-(line.o[2] * rz))],
-            near: [row(rx, 0), row(ry, 1), row(rz, 2)],
-            far: [row(-rx, 0), row(-ry, 1), row(-rz, 2)],
+            r: [lane(r[0]), lane(r[1]), lane(r[2])],
+            or: [lane(or[0]), lane(or[1]), lane(or[2])],
+            near: [row(r[0], 0), row(r[1], 1), row(r[2], 2)],
+            far: [row(-r[0], 0), row(-r[1], 1), row(-r[2], 2)],
         }
     }
 }
@@ -146,7 +172,8 @@ fn reciprocal(d: f32, eta: f32) -> f32 {
     1.0 / if d.abs() < eta { eta.copysign(d) } else { d }
 }
 
+/// The row of planes that a line of direction `r` meets first; r is not 0.
 #[inline(always)]
 fn row(r: f32, axis: usize) -> usize {
-    axis + if r < 0.0 { 3 } else { 0 }
+    axis + 3 * (r.to_bits() >> 31) as usize
 }

@@ -177,7 +177,13 @@ impl<S: Simd, M: Masks, const PLACED: bool> VisitNearest<S> for NearestTriangle<
 
 /// One of `lanes` blocks the line; those in `certain` are known to be hit.
 #[inline(never)]
-fn blocks<M: Masks>(of: &TriangleTree, ask: &Ask<'_, M>, leaf: usize, mut lanes: u32, certain: u32) -> bool {
+pub(crate) fn blocks<M: Masks>(
+    of: &TriangleTree,
+    ask: &Ask<'_, M>,
+    leaf: usize,
+    mut lanes: u32,
+    certain: u32,
+) -> bool {
     while lanes != 0 {
         let lane = lanes.trailing_zeros() as usize;
         lanes &= lanes - 1;

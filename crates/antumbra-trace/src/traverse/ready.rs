@@ -1,0 +1,129 @@
+//! Lines of a batch made ready eight at a time: what boxes and triangles read of each, side by side.
+
+use fearless_simd::{Simd, f32x8, mask32x8, prelude::*};
+
+use super::boxes::FAR_SLACK;
+use super::filter::{TriangleRay, U};
+use super::ray::{Limits, Lines, power};
+use super::vector::V3;
+use crate::TO_POINT;
+use crate::layout::{Node, Row, WIDTH};
+
+/// Lines that are made ready together.
+pub(crate) const CHUNK: usize = 128;
+
+type Column = [f32; CHUNK];
+
+/// Up to [`CHUNK`] lines. What a number means stands at [`BoxRay`](super::ray::BoxRay) and [`TriangleRay`].
+pub(crate) struct Ready {
+    o: [Column; 3],
+    d: [Column; 3],
+    r: [Column; 3],
+    or: [Column; 3],
+    tmax: Column,
+    edge: Column,
+    /// Rows of the near planes, then of the far ones.
+    rows: [[Row; CHUNK]; 6],
+    /// One bit a line: f32 is proven for it.
+    good: [u8; CHUNK / WIDTH],
+}
+
+impl Ready {
+    /// No line.
+    pub const EMPTY: Ready = Ready {
+        o: [[0.0; CHUNK]; 3],
+        d: [[0.0; CHUNK]; 3],
+        r: [[0.0; CHUNK]; 3],
+        or: [[0.0; CHUNK]; 3],
+        tmax: [0.0; CHUNK],
+        edge: [0.0; CHUNK],
+        rows: [[Row::FIRST; CHUNK]; 6],
+        good: [0; CHUNK / WIDTH],
+    };
+
+    /// Takes entries `from` … `from` + `count` − 1 of `lines`; `count` ≤ [`CHUNK`].
+    #[inline(always)]
+    pub fn take<S: Simd>(&mut self, simd: S, lines: &Lines<'_>, limits: &Limits, from: usize, count: usize) {
+        for block in 0..count.div_ceil(WIDTH) {
+            self.eight(simd, lines, limits, from + WIDTH * block, block);
+        }
+    }
+
+    #[inline(always)]
+    fn eight<S: Simd>(&mut self, simd: S, lines: &Lines<'_>, limits: &Limits, from: usize, block: usize) {
+        let columns = lines.columns();
+        let read = |k: usize| load(simd, columns[k], from);
+        let o = [read(0), read(1), read(2)];
+        let reach = read(6);
+        let to_point = reach.simd_eq(TO_POINT);
+        let d = [0, 1, 2].map(|a| {
+            let end = read(3 + a);
+            to_point.select(end - o[a], end)
+        });
+        let tmax = to_point.select(f32x8::splat(simd, 1.0), reach);
+        let [ax, ay, az] = d.map(|c| c.abs());
+        let size = ax.max(ay).max(az);
+        self.good[block] = limits.hold_eight(simd, &o, &d, size, tmax) as u8;
+        let at = WIDTH * block;
+        put(&mut self.tmax, at, tmax);
+        put(&mut self.edge, at, (ax + ay + az) * 1.00001 * (40.0 * U));
+        let eta = size * power(-60);
+        for a in 0..3 {
+            let small = d[a].abs().simd_lt(eta);
+            let r = f32x8::splat(simd, 1.0) / small.select(eta.copysign(d[a]), d[a]);
+            put(&mut self.o[a], at, o[a]);
+            put(&mut self.d[a], at, d[a]);
+            put(&mut self.r[a], at, r);
+            put(&mut self.or[a], at, -(o[a] * r));
+            let [near, far] = Row::pairs(simd, r, a);
+            self.rows[a][at..at + WIDTH].copy_from_slice(&near);
+            self.rows[a + 3][at..at + WIDTH].copy_from_slice(&far);
+        }
+    }
+
+    /// f32 is proven for line `i`.
+    #[inline(always)]
+    pub fn is_good(&self, i: usize) -> bool {
+        self.good[i % CHUNK / WIDTH] >> (i % WIDTH) & 1 == 1
+    }
+
+    /// Which boxes of `node` line `i` meets, and where it enters them (as [`meet`](super::boxes::meet)).
+    #[inline(always)]
+    pub fn meet<S: Simd>(&self, simd: S, node: &Node, i: usize) -> (mask32x8<S>, f32x8<S>) {
+        let i = i % CHUNK;
+        let at = |row: usize, a: usize| {
+            let plane = f32x8::load_array_ref(simd, node.row(self.rows[row][i]));
+            plane.mul_add(f32x8::splat(simd, self.r[a][i]), f32x8::splat(simd, self.or[a][i]))
+        };
+        let zero = f32x8::splat(simd, 0.0);
+        let enter = at(0, 0).max(at(1, 1)).max(at(2, 2).max(zero));
+        let leave = at(3, 0).min(at(4, 1)).min(at(5, 2).min(f32x8::splat(simd, self.tmax[i])));
+        (enter.simd_le(leave * FAR_SLACK), enter)
+    }
+
+    /// Line `i` as a leaf block sees it, and its tmax.
+    #[inline(always)]
+    pub fn triangle_ray<S: Simd>(&self, simd: S, i: usize) -> (TriangleRay<S>, f32) {
+        let i = i % CHUNK;
+        let three = |c: &[Column; 3]| V3::splat(simd, [c[0][i], c[1][i], c[2][i]]);
+        (TriangleRay::world(simd, three(&self.o), three(&self.d), self.edge[i]), self.tmax[i])
+    }
+}
+
+/// Eight numbers of a column; zeros beyond its end.
+#[inline(always)]
+fn load<S: Simd>(simd: S, column: &[f32], from: usize) -> f32x8<S> {
+    if let Some(eight) = column.get(from..from + WIDTH) {
+        return f32x8::from_slice(simd, eight);
+    }
+    let mut eight = [0.0; WIDTH];
+    for (to, x) in eight.iter_mut().zip(&column[from..]) {
+        *to = *x;
+    }
+    f32x8::load_array(simd, eight)
+}
+
+#[inline(always)]
+fn put<S: Simd>(column: &mut Column, at: usize, eight: f32x8<S>) {
+    eight.store_slice(&mut column[at..at + WIDTH]);
+}
