@@ -5,9 +5,9 @@ use fearless_simd::Simd;
 use crate::law::Line;
 use crate::object::Object;
 use crate::traverse::{
-    Answers, AnyTriangle, Ask, Best, Chunk, Count, ExactTriangles, FastLine, Lines, Masks,
-    NearestTriangle, NotCounted, Ready, ShapeTree, ShapeVisit, TriangleTree, VisitAny, VisitNearest, any_hit,
-    any_hit_exact, nearest_hit, nearest_hit_exact,
+    Answers, AnyTriangle, Ask, Best, Chunk, Count, ExactTriangles, FastLine, Lines, Masks, NearestTriangle,
+    NotCounted, Ready, ShapeTree, ShapeVisit, TriangleTree, VisitAny, VisitNearest, any_hit, any_hit_exact,
+    nearest_hit, nearest_hit_exact,
 };
 use crate::world::World;
 use crate::{Hits, NO_PRIM, Segments};

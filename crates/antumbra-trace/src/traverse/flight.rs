@@ -3,12 +3,12 @@
 //! Lines take turns, one box node or one leaf block a turn; those at nodes first, then those at leaves. So hardly a
 //! branch depends on where a single line goes, and what a turn reads was asked for a round before.
 
-use fearless_simd::{Level, Simd, prelude::*, u32x8};
+use fearless_simd::{Level, Simd, mask32x8, prelude::*, u32x8};
 
 use super::ask::{Ask, Masks};
 use super::filter::filter;
 use super::ray::{FastLine, Lines};
-use super::ready::{CHUNK, Ready};
+use super::ready::{CHUNK, Lot, Ready};
 use super::triangles::{TriangleTree, blocks};
 use crate::Segments;
 use crate::layout::{Child, Node, TriangleBlock, WIDTH};
@@ -43,12 +43,13 @@ impl<M: Masks> Chunk<'_, M> {
         ready: &mut Ready,
         alone: impl Fn(usize, FastLine) -> bool,
     ) -> Answers {
-        ready.take(simd, self.lines, &self.of.limits, self.from, self.count);
+        let nodes = &self.of.tree.nodes;
+        let [live, wild] = ready.take(simd, (self.lines, &self.of.limits, &nodes[0]), self.from, self.count);
         let mut flight = Flight {
             chunk: self,
             ready,
             alone,
-            next: 0,
+            live,
             answers: Answers::default(),
             line: [0; FLIGHT],
             at: [Child(0); FLIGHT],
@@ -56,8 +57,9 @@ impl<M: Masks> Chunk<'_, M> {
             stacks: [[Child::leaf(0).0; ROOM]; FLIGHT],
         };
         let (mut inner, mut leaves) = (List::EMPTY, List::EMPTY);
+        flight.wild(&wild);
         for k in 0..FLIGHT {
-            flight.launch(k, &mut inner);
+            flight.launch(simd, k, &mut inner, &mut leaves);
         }
         while inner.len + leaves.len > 0 {
             inner = flight.through_nodes(simd, &inner, &mut leaves);
@@ -106,8 +108,8 @@ struct Flight<'a, M, A> {
     chunk: &'a Chunk<'a, M>,
     ready: &'a Ready,
     alone: A,
-    /// The next line to fly.
-    next: usize,
+    /// The lines that have not started.
+    live: Lot,
     answers: Answers,
     /// By place: which line it is.
     line: [u32; FLIGHT],
@@ -146,7 +148,7 @@ impl<M: Masks, A: Fn(usize, FastLine) -> bool> Flight<'_, M, A> {
                 }
                 self.block(i);
             }
-            self.launch(k, inner);
+            self.launch(simd, k, inner, &mut leaves);
         }
         leaves
     }
@@ -156,6 +158,12 @@ impl<M: Masks, A: Fn(usize, FastLine) -> bool> Flight<'_, M, A> {
     fn through_node<S: Simd>(&mut self, simd: S, k: usize) {
         let node = &self.chunk.of.tree.nodes[self.at[k].index()];
         let (pass, _) = self.ready.meet(simd, node, self.line[k] as usize);
+        self.descend(simd, node, pass, k);
+    }
+
+    /// On to the best of the children `pass` of `node`, or back to what is left.
+    #[inline(always)]
+    fn descend<S: Simd>(&mut self, simd: S, node: &Node, pass: mask32x8<S>, k: usize) {
         let top = self.top[k] as usize;
         let Some(room) = self.stacks[k].get_mut(top..top + WIDTH) else { return self.give_up(k) };
         let count = push(simd, node, pass, room);
@@ -166,15 +174,25 @@ impl<M: Masks, A: Fn(usize, FastLine) -> bool> Flight<'_, M, A> {
 
     /// Lets the next line fly at place `k`, if there is one.
     #[inline(always)]
-    fn launch(&mut self, k: usize, inner: &mut List) {
-        while self.next < self.chunk.count {
-            let i = self.next;
-            self.next += 1;
-            if self.ready.is_good(i) {
-                (self.line[k], self.at[k], self.top[k]) = (i as u32, Child::node(0), 1);
-                return inner.add(k, true);
+    fn launch<S: Simd>(&mut self, simd: S, k: usize, inner: &mut List, leaves: &mut List) {
+        let Some(word) = self.live.iter().position(|word| *word != 0) else { return };
+        let i = 64 * word + self.live[word].trailing_zeros() as usize;
+        self.live[word] &= self.live[word] - 1;
+        (self.line[k], self.top[k]) = (i as u32, 1);
+        let root = &self.chunk.of.tree.nodes[0];
+        self.descend(simd, root, mask32x8::from_bitmask(simd, self.ready.roots(i)), k);
+        self.sort_in(k, inner, leaves);
+    }
+
+    /// Answers the lines that cannot fly.
+    #[inline(always)]
+    fn wild(&mut self, wild: &Lot) {
+        for (k, word) in wild.iter().enumerate() {
+            let mut left = *word;
+            while left != 0 {
+                self.by_itself(64 * k + left.trailing_zeros() as usize);
+                left &= left - 1;
             }
-            self.by_itself(i);
         }
     }
 
@@ -214,7 +232,7 @@ impl<M: Masks, A: Fn(usize, FastLine) -> bool> Flight<'_, M, A> {
 
 /// Writes the children in `pass`, best last; how many.
 #[inline(always)]
-fn push<S: Simd>(simd: S, node: &Node, pass: fearless_simd::mask32x8<S>, room: &mut [u32]) -> usize {
+fn push<S: Simd>(simd: S, node: &Node, pass: mask32x8<S>, room: &mut [u32]) -> usize {
     let mut met = pass.to_bitmask() as u32;
     let count = met.count_ones() as usize;
     if packs(simd.level()) {

@@ -24,9 +24,12 @@ pub(crate) struct Ready {
     edge: Column,
     /// Rows of the near planes, then of the far ones.
     rows: [[Row; CHUNK]; 6],
-    /// One bit a line: f32 is proven for it.
-    good: [u8; CHUNK / WIDTH],
+    /// Which children of the root each line meets.
+    roots: [u8; CHUNK],
 }
+
+/// Sets of lines of a chunk, one bit a line.
+pub(crate) type Lot = [u64; CHUNK / 64];
 
 impl Ready {
     /// No line.
@@ -38,19 +41,38 @@ impl Ready {
         tmax: [0.0; CHUNK],
         edge: [0.0; CHUNK],
         rows: [[Row::FIRST; CHUNK]; 6],
-        good: [0; CHUNK / WIDTH],
+        roots: [0; CHUNK],
     };
 
-    /// Takes entries `from` … `from` + `count` − 1 of `lines`; `count` ≤ [`CHUNK`].
+    /// Takes entries `from` … `from` + `count` − 1 of `lines`; `count` ≤ [`CHUNK`]. Which of them meet a child of
+    /// `root`, and for which f32 is not proven.
     #[inline(always)]
-    pub fn take<S: Simd>(&mut self, simd: S, lines: &Lines<'_>, limits: &Limits, from: usize, count: usize) {
+    pub fn take<S: Simd>(
+        &mut self,
+        simd: S,
+        (lines, limits, root): (&Lines<'_>, &Limits, &Node),
+        from: usize,
+        count: usize,
+    ) -> [Lot; 2] {
+        let (mut live, mut wild) = (Lot::default(), Lot::default());
         for block in 0..count.div_ceil(WIDTH) {
-            self.eight(simd, lines, limits, from + WIDTH * block, block);
+            let [good, met] = self.eight(simd, (lines, limits, root), from + WIDTH * block, block);
+            let there = 0xff >> WIDTH.saturating_sub(count - WIDTH * block);
+            live[block / 8 % live.len()] |= (good & met & there) << (8 * (block % 8));
+            wild[block / 8 % wild.len()] |= (!good & there) << (8 * (block % 8));
         }
+        [live, wild]
     }
 
+    /// Takes eight entries as block `block`: for which of them f32 is proven, and which meet a child of `root`.
     #[inline(always)]
-    fn eight<S: Simd>(&mut self, simd: S, lines: &Lines<'_>, limits: &Limits, from: usize, block: usize) {
+    fn eight<S: Simd>(
+        &mut self,
+        simd: S,
+        (lines, limits, root): (&Lines<'_>, &Limits, &Node),
+        from: usize,
+        block: usize,
+    ) -> [u64; 2] {
         let columns = lines.columns();
         let read = |k: usize| load(simd, columns[k], from);
         let o = [read(0), read(1), read(2)];
@@ -63,28 +85,31 @@ impl Ready {
         let tmax = to_point.select(f32x8::splat(simd, 1.0), reach);
         let [ax, ay, az] = d.map(|c| c.abs());
         let size = ax.max(ay).max(az);
-        self.good[block] = limits.hold_eight(simd, &o, &d, size, tmax) as u8;
+        let good = limits.hold_eight(simd, &o, &d, size, tmax);
         let at = WIDTH * block;
         put(&mut self.tmax, at, tmax);
         put(&mut self.edge, at, (ax + ay + az) * 1.00001 * (40.0 * U));
         let eta = size * power(-60);
+        let r = d.map(|c| f32x8::splat(simd, 1.0) / c.abs().simd_lt(eta).select(eta.copysign(c), c));
+        let or = [0, 1, 2].map(|a| -(o[a] * r[a]));
         for a in 0..3 {
-            let small = d[a].abs().simd_lt(eta);
-            let r = f32x8::splat(simd, 1.0) / small.select(eta.copysign(d[a]), d[a]);
             put(&mut self.o[a], at, o[a]);
             put(&mut self.d[a], at, d[a]);
-            put(&mut self.r[a], at, r);
-            put(&mut self.or[a], at, -(o[a] * r));
-            let [near, far] = Row::pairs(simd, r, a);
+            put(&mut self.r[a], at, r[a]);
+            put(&mut self.or[a], at, or[a]);
+            let [near, far] = Row::pairs(simd, r[a], a);
             self.rows[a][at..at + WIDTH].copy_from_slice(&near);
             self.rows[a + 3][at..at + WIDTH].copy_from_slice(&far);
         }
+        let children = meet_each(simd, root, &r, &or, tmax);
+        self.roots[at..at + WIDTH].copy_from_slice(&transposed(children).to_le_bytes());
+        [good, children.to_le_bytes().into_iter().fold(0, |any, line| any | u64::from(line))]
     }
 
-    /// f32 is proven for line `i`.
+    /// Which children of the root line `i` meets.
     #[inline(always)]
-    pub fn is_good(&self, i: usize) -> bool {
-        self.good[i % CHUNK / WIDTH] >> (i % WIDTH) & 1 == 1
+    pub fn roots(&self, i: usize) -> u64 {
+        u64::from(self.roots[i % CHUNK])
     }
 
     /// Which boxes of `node` line `i` meets, and where it enters them (as [`meet`](super::boxes::meet)).
@@ -126,4 +151,32 @@ fn load<S: Simd>(simd: S, column: &[f32], from: usize) -> f32x8<S> {
 #[inline(always)]
 fn put<S: Simd>(column: &mut Column, at: usize, eight: f32x8<S>) {
     eight.store_slice(&mut column[at..at + WIDTH]);
+}
+
+/// Which of eight lines meet each child of `node`: one byte a child, one bit a line.
+#[inline(always)]
+fn meet_each<S: Simd>(simd: S, node: &Node, r: &[f32x8<S>; 3], or: &[f32x8<S>; 3], tmax: f32x8<S>) -> u64 {
+    let mut met = 0;
+    for child in 0..node.count() % (WIDTH + 1) {
+        let at = |row: usize| f32x8::splat(simd, node.planes[row][child]).mul_add(r[row % 3], or[row % 3]);
+        let (mut enter, mut leave) = (f32x8::splat(simd, 0.0), tmax);
+        for axis in 0..3 {
+            let (lower, upper) = (at(axis), at(axis + 3));
+            enter = enter.max(lower.min(upper));
+            leave = leave.min(lower.max(upper));
+        }
+        met |= enter.simd_le(leave * FAR_SLACK).to_bitmask() << (8 * child);
+    }
+    met
+}
+
+/// Bit j of byte i becomes bit i of byte j.
+#[inline(always)]
+fn transposed(mut x: u64) -> u64 {
+    for (by, which) in [(7, 0x00aa_00aa_00aa_00aa), (14, 0x0000_cccc_0000_cccc), (28, 0x0000_0000_f0f0_f0f0)]
+    {
+        let swapped = (x ^ x >> by) & which;
+        x ^= swapped ^ swapped << by;
+    }
+    x
 }
