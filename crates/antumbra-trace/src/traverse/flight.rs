@@ -90,7 +90,8 @@ struct List {
 impl List {
     const EMPTY: List = List { of: [0; FLIGHT], len: 0 };
 
-    /// Adds `k` if `really`; without a branch.
+    /// Adds `k` if `really`; without a branch. Every place is in one list at most and `k` is in none, so there is room
+    /// for it.
     #[inline(always)]
     fn add(&mut self, k: usize, really: bool) {
         self.of[self.len % FLIGHT] = k as u8;
@@ -277,3 +278,7 @@ fn fetch(nodes: &[Node], blocks: &[TriangleBlock], child: Child) {
     #[cfg(not(target_arch = "x86_64"))]
     let _ = (nodes, blocks, child);
 }
+
+#[cfg(test)]
+#[path = "flight_tests.rs"]
+mod tests;
