@@ -11,6 +11,11 @@ from pathlib import Path
 from antumbra.errors import OptionError
 from antumbra.lecture.figure import Figure
 
+# The folder of the whole package.
+ROOT = Path(__file__).parents[1]
+# Of it, what no figure's numbers depend on: the command line, the page, and the other figures.
+_APART = ("cli/", "lecture/page/", "lecture/figures/")
+
 
 def names() -> list[str]:
     """Names of all figures as people type them, without importing any."""
@@ -50,10 +55,7 @@ def chosen(asked: Sequence[str]) -> dict[str, Figure]:
 
 
 def sources(name: str) -> list[Path]:
-    """The files that decide what a figure finds: its own, and all of the lecture that is neither page nor figure."""
-    here = Path(__file__).parent
-    shared = [
-        path for path in here.rglob("*.py") if path.relative_to(here).parts[0] not in ("figures", "page")
-    ]
-    own = here / "figures" / f"{name.replace('-', '_')}.py"
+    """The files that decide what a figure finds: its own, and all of the package but command line, page and figures."""
+    shared = [path for path in ROOT.rglob("*.py") if not path.relative_to(ROOT).as_posix().startswith(_APART)]
+    own = ROOT / "lecture/figures" / f"{name.replace('-', '_')}.py"
     return [*sorted(shared), *([own] if own.is_file() else [])]

@@ -5,10 +5,12 @@ from __future__ import annotations
 import hashlib
 import json
 import os
+import re
 import shutil
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -17,18 +19,25 @@ from antumbra.lecture import catalog
 
 # Another number where what is kept gets another form.
 FORM = 1
+# Where a figure's files lie: a plain name in one of two folders. A folder from somebody else may say anything.
+_PLACE = re.compile(r"(pictures|exr)/[^./\\:\0][^/\\:\0]*")
 
 
 def key(name: str, quick: bool, seed: int) -> str:
     """A number that changes with everything that a figure's result depends on: sources, core, size, seed."""
     seen = hashlib.sha256(f"{FORM} {__version__} {name} {quick} {seed}".encode())
-    for path in catalog.sources(name):
-        seen.update(path.name.encode() + b"\0" + path.read_bytes())
     core = Path(_core.__file__ or "")
-    if core.is_file():
-        status = core.stat()
-        seen.update(f"{status.st_size} {status.st_mtime_ns}".encode())
+    for path in [*catalog.sources(name), *([core] if core.is_file() else [])]:
+        status = path.stat()
+        seen.update(path.as_posix().removeprefix(catalog.ROOT.as_posix()).encode() + b"\0")
+        seen.update(_content(path, status.st_size, status.st_mtime_ns))
     return seen.hexdigest()[:16]
+
+
+@cache
+def _content(path: Path, size: int, time: int) -> bytes:
+    """The hash of a file, read once as long as its size and time stay."""
+    return hashlib.sha256(path.read_bytes()).digest()
 
 
 class Folder:
@@ -54,8 +63,13 @@ class Folder:
             )
         except (OSError, ValueError):
             return None
-        whole = found.get("form") == FORM and all((self.path / file).is_file() for file in found["files"])
+        whole = _is_record(found, name) and all(map(self._is_own, found["files"]))
         return found if whole and key in ("", found["key"]) else None
+
+    def _is_own(self, file: str) -> bool:
+        """Whether it is there, and within this folder also where a link leads."""
+        path = self.path / file
+        return path.is_file() and path.resolve().is_relative_to(self.path.resolve())
 
     @contextmanager
     def beside(self) -> Iterator[Path]:
@@ -92,6 +106,28 @@ class Folder:
         except BaseException:
             Path(name).unlink(missing_ok=True)
             raise
+
+
+def _is_record(found: Any, name: str) -> bool:
+    """Whether it is what `finish` writes of this figure: all files in their places, its pictures among them."""
+    if not isinstance(found, dict) or (found.get("form"), found.get("name")) != (FORM, name):
+        return False
+    files = found.get("files")
+    placed = isinstance(files, list) and all(isinstance(f, str) and _PLACE.fullmatch(f) for f in files)
+    return (
+        placed and isinstance(found.get("key"), str) and all(f in files for f in _shown(found.get("stage")))
+    )
+
+
+def _shown(part: Any) -> Iterator[Any]:
+    """The files that a stage names, however deep."""
+    if isinstance(part, Mapping):
+        if "file" in part:
+            yield part["file"]
+        part = list(part.values())
+    if isinstance(part, list):
+        for inner in part:
+            yield from _shown(inner)
 
 
 def _umask() -> int:

@@ -11,7 +11,7 @@ import sys
 
 import pytest
 
-from antumbra.lecture import keep, make
+from antumbra.lecture import catalog, keep, make
 
 
 def files(folder):
@@ -150,3 +150,46 @@ def test_a_record_that_was_cut_short_counts_as_not_finished(tmp_path, cut):
     (tmp_path / "kept").mkdir()
     (tmp_path / "kept/one.json").write_text(cut)
     assert keep.Folder(tmp_path).kept("one") is None
+
+
+HOSTILE = [
+    {"files": ["../../theirs.txt"]},
+    {"files": ["pictures/../../theirs.txt"]},
+    {"files": ["/etc/hosts"]},
+    {"files": ["pictures\\..\\..\\theirs.txt"]},
+    {"files": ["kept/two.json"]},
+    {"files": ["pictures/link.png"]},
+    {"files": [0]},
+    {"files": None},
+    {"stage": [{"kind": "row", "cells": [{"kind": "picture", "file": "../theirs.txt"}]}]},
+    {"name": "two"},
+    {"key": None},
+]
+
+
+@pytest.mark.parametrize("said", HOSTILE, ids=str)
+def test_a_record_that_names_other_files_than_a_figure_s_own_is_not_believed(tmp_path, said):
+    theirs, out = tmp_path / "theirs.txt", tmp_path / "out"
+    theirs.write_text("precious")
+    for folder in ("kept", "pictures", "new/pictures"):
+        (out / folder).mkdir(parents=True)
+    (out / "kept/two.json").write_text("{}")
+    (out / "pictures/link.png").symlink_to(theirs)
+    (out / "new/pictures/one.png").write_text("new")
+    record = {"form": keep.FORM, "name": "one", "key": "0", "files": [], "stage": []} | said
+    (out / "kept/one.json").write_text(json.dumps(record))
+    folder = keep.Folder(out)
+    assert folder.kept("one") is None
+    folder.finish(out / "new", {"name": "one", "key": "1", "files": ["pictures/one.png"], "stage": []})
+    assert theirs.read_text() == "precious" and (out / "kept/two.json").exists()
+    assert folder.kept("one", "1")
+
+
+def test_the_key_is_of_everything_that_computes_a_figure(monkeypatch, tmp_path):
+    ours = {path.relative_to(catalog.ROOT).as_posix() for path in catalog.sources("noise")}
+    assert {"scene.py", "study/statistics.py", "lecture/run.py", "lecture/figures/noise.py"} <= ours
+    assert not {"cli/lecture.py", "lecture/page/__init__.py", "lecture/figures/pixel.py"} & ours
+    before, core = keep.key("noise", True, 0), tmp_path / "core.so"
+    core.write_bytes(b"another core")
+    monkeypatch.setattr(keep._core, "__file__", str(core))
+    assert keep.key("noise", True, 0) != before
