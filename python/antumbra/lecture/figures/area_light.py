@@ -26,7 +26,7 @@ RATIOS = [height / (LIGHT_HEIGHT - height) for height, _, _ in BOARDS]
 WRITTEN = ["1/7", "1/3", "1"]
 HALF = 1.6
 FLOOR = {
-    "estimator": "area", "viewing_rays": Pick(16, 64), "size": Pick((120, 120), (360, 360)), "up": (1.0, 0.0, 0.0),
+    "estimator": "area", "viewing_rays": Pick(16, 64), "size": Pick((120, 120), (320, 320)), "up": (1.0, 0.0, 0.0),
     "eye": (0.0, 0.24, 0.0), "look_at": (0.0, 0.0, 0.0), "fov": 2 * np.arctan(HALF / 0.24),
 }  # fmt: skip
 VIEW = FLOOR | {"eye": (2.9, 2.3, 2.0), "look_at": (-0.2, 0.2, 0.2), "up": (0.0, 1.0, 0.0), "fov": 0.78}
