@@ -23,7 +23,7 @@ impl BsdfKind for Conductor {
     }
 
     /// The mirrored direction; throughput ρ F.
-    #[inline]
+    #[inline(never)]
     fn sample(&self, wo: Local, _u: [f32; 3]) -> Option<BsdfSample> {
         if wo.cos() <= 0.0 {
             return None;

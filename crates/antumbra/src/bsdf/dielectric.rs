@@ -37,7 +37,7 @@ impl BsdfKind for Dielectric {
     }
 
     /// Reflected with probability F, else refracted: throughput 1 or (n_o/n_i)², times its factor.
-    #[inline]
+    #[inline(never)]
     fn sample(&self, wo: Local, u: [f32; 3]) -> Option<BsdfSample> {
         let cos = wo.cos().abs().min(1.0);
         if cos == 0.0 {

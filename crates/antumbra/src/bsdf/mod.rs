@@ -73,6 +73,9 @@ pub trait BsdfKind {
         Self: Sized;
 }
 
+/// Kinds that compute more than a few lines stay calls of their own (`inline(never)`): taken into the loop of the
+/// estimators they would slow down the diffuse ones.
+///
 /// One enum of all kinds, its delegation, and the list that the contract tests walk through.
 macro_rules! kinds {
     ($($kind:ident),* $(,)?) => {

@@ -68,7 +68,7 @@ impl Plastic {
 
 impl BsdfKind for Plastic {
     /// The diffuse part.
-    #[inline]
+    #[inline(never)]
     fn eval(&self, wo: Local, wi: Local) -> Rgb {
         if wo.cos() <= 0.0 || wi.cos() <= 0.0 {
             return Rgb::BLACK;
@@ -77,7 +77,7 @@ impl BsdfKind for Plastic {
     }
 
     /// Mirrored, or about the normal with cosine density.
-    #[inline]
+    #[inline(never)]
     fn sample(&self, wo: Local, u: [f32; 3]) -> Option<BsdfSample> {
         if wo.cos() <= 0.0 {
             return None;
@@ -98,7 +98,7 @@ impl BsdfKind for Plastic {
         Some(BsdfSample { wi, throughput, density: Density::SolidAngle(pdf) })
     }
 
-    #[inline]
+    #[inline(never)]
     fn pdf(&self, wo: Local, wi: Local) -> f32 {
         if wo.cos() <= 0.0 || wi.cos() <= 0.0 {
             return 0.0;

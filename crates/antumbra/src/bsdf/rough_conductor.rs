@@ -38,7 +38,7 @@ impl RoughConductor {
 }
 
 impl BsdfKind for RoughConductor {
-    #[inline]
+    #[inline(never)]
     fn eval(&self, wo: Local, wi: Local) -> Rgb {
         if wo.cos() <= 0.0 || wi.cos() <= 0.0 {
             return Rgb::BLACK;
@@ -49,7 +49,7 @@ impl BsdfKind for RoughConductor {
     }
 
     /// ω_o mirrored about a visible normal: throughput F G₁(ω_i). `None` where the facet sends light downwards.
-    #[inline]
+    #[inline(never)]
     fn sample(&self, wo: Local, u: [f32; 3]) -> Option<BsdfSample> {
         if wo.cos() <= 0.0 {
             return None;
@@ -66,7 +66,7 @@ impl BsdfKind for RoughConductor {
     }
 
     /// p(ω_i) = p(m) / (4 ω_o·m) = D G₁(ω_o) / (4 cos θ_o).
-    #[inline]
+    #[inline(never)]
     fn pdf(&self, wo: Local, wi: Local) -> f32 {
         if wo.cos() <= 0.0 || wi.cos() <= 0.0 {
             return 0.0;

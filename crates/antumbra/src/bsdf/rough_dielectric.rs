@@ -117,7 +117,7 @@ impl RoughDielectric {
 }
 
 impl BsdfKind for RoughDielectric {
-    #[inline]
+    #[inline(never)]
     fn eval(&self, wo: Local, wi: Local) -> Rgb {
         let Some(j) = self.joined(wo, wi) else { return Rgb::BLACK };
         let f = self.spread(wo, wi, &j) * self.facets.seen(wi);
@@ -129,7 +129,7 @@ impl BsdfKind for RoughDielectric {
     }
 
     /// A visible facet; then reflection with probability F, else refraction.
-    #[inline]
+    #[inline(never)]
     fn sample(&self, wo: Local, u: [f32; 3]) -> Option<BsdfSample> {
         if wo.cos() == 0.0 {
             return None;
@@ -160,7 +160,7 @@ impl BsdfKind for RoughDielectric {
         (pdf > 0.0).then_some(BsdfSample { wi, throughput, density: Density::SolidAngle(pdf) })
     }
 
-    #[inline]
+    #[inline(never)]
     fn pdf(&self, wo: Local, wi: Local) -> f32 {
         self.joined(wo, wi).map_or(0.0, |j| self.density(wo, wi, &j))
     }

@@ -128,7 +128,7 @@ impl RoughPlastic {
 }
 
 impl BsdfKind for RoughPlastic {
-    #[inline]
+    #[inline(never)]
     fn eval(&self, wo: Local, wi: Local) -> Rgb {
         if wo.cos() <= 0.0 || wi.cos() <= 0.0 {
             return Rgb::BLACK;
@@ -137,7 +137,7 @@ impl BsdfKind for RoughPlastic {
     }
 
     /// A visible facet's mirrored direction, or about the normal with cosine density; the density is of both.
-    #[inline]
+    #[inline(never)]
     fn sample(&self, wo: Local, u: [f32; 3]) -> Option<BsdfSample> {
         if wo.cos() <= 0.0 {
             return None;
@@ -158,7 +158,7 @@ impl BsdfKind for RoughPlastic {
         Some(BsdfSample { wi, throughput, density: Density::SolidAngle(pdf) })
     }
 
-    #[inline]
+    #[inline(never)]
     fn pdf(&self, wo: Local, wi: Local) -> f32 {
         if wo.cos() <= 0.0 || wi.cos() <= 0.0 {
             return 0.0;

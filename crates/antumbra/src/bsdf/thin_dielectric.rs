@@ -39,7 +39,7 @@ impl BsdfKind for ThinDielectric {
     }
 
     /// Mirrored with probability R, else straight on.
-    #[inline]
+    #[inline(never)]
     fn sample(&self, wo: Local, u: [f32; 3]) -> Option<BsdfSample> {
         let cos = wo.cos().abs().min(1.0);
         if cos == 0.0 {

@@ -87,3 +87,19 @@ fn paths_agree_through_ground_glass() {
     );
     judge.verdict("paths_agree_through_ground_glass", 1e-3);
 }
+
+/// A surface of one side reflects on its front and is black from behind; every direction brings ρ exactly (few roundings).
+#[test]
+fn one_sided_is_black_from_behind() {
+    for (z, expected) in [(5.0, 0.5), (-5.0, 0.0)] {
+        let mut builder = SceneBuilder::new("card");
+        let card = builder.material(Material { one_sided: true, ..Material::diffuse(Rgb::grey(0.5)) });
+        let square = parallelogram(Vec3::new(-1.0, -1.0, 0.0), Vec3::X * 2.0, Vec3::Y * 2.0);
+        builder.object("card", square, card);
+        builder.light("sky", Environment::constant(Rgb::WHITE));
+        builder.cameras.push(Camera::perspective(DVec3::new(0.0, 0.0, z), DVec3::ZERO, 5.0));
+        let scene = builder.build().unwrap();
+        let picture = look(&scene, &Settings { viewing_rays: 4, ..small(Hemisphere) });
+        assert!(picture.pixels.as_flattened().iter().all(|c| (c - expected).abs() < 1e-6), "{z}");
+    }
+}
