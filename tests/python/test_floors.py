@@ -25,6 +25,7 @@ def imports(name: str, path: Path, known: dict[str, Path]) -> set[str]:
     """The modules of the package that a module names, wherever in it: also those that are only for types."""
     found = set()
     for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        assert not getattr(node, "level", 0), f"{name}: imports are written out, none is relative"
         if isinstance(node, ast.ImportFrom) and node.module:
             asked = [f"{node.module}.{alias.name}" for alias in node.names]
             found |= {each if each in known else node.module for each in asked}

@@ -9,7 +9,7 @@ from typing import Any
 
 @dataclass(frozen=True)
 class Quantity:
-    """`value` ± `error`, half of its 95 % interval (0: exact); `unit` "%" writes a share as per cent.
+    """`value` ± `error`, half of its 95 % interval (0: exact, infinite: not known); `unit` "%" writes per cent.
 
     In the sentences of a figure `{name}` writes the error with two digits, `{name:1}` with one, `{name:v}` without it.
 
@@ -31,7 +31,9 @@ class Quantity:
         """The value and its error as text, the error in so many digits; "" for no error."""
         scale = 100.0 if self.unit == "%" else 1.0
         value, error = scale * self.value, scale * self.error
-        if not error > 0 or not math.isfinite(error):
+        if not math.isfinite(error):
+            return written(value), "?"
+        if not error > 0:
             return written(value), ""
         # A value far below its own error needs no more digits than the error has.
         places = max(0, digits - 1 - math.floor(math.log10(float(f"{error:.{digits - 1}e}"))))
@@ -42,7 +44,10 @@ class Quantity:
         digits = int(spec) if spec.isdigit() else 2
         value, error = self.number(digits)
         if spec == "v":
-            value, error = (value if error else written((100 if self.unit == "%" else 1) * self.value)), ""
+            value, error = (
+                (value if error.strip("?") else written((100 if self.unit == "%" else 1) * self.value)),
+                "",
+            )
         tail = f" {self.unit}" if self.unit else ""
         return f"{value} ± {error}{tail}" if error else f"{value}{tail}"
 
@@ -52,7 +57,8 @@ class Quantity:
 
     def facts(self) -> dict[str, Any]:
         """For JSON: its fields and its text."""
-        return {**asdict(self), "text": str(self)}
+        known = self.error if math.isfinite(self.error) else None
+        return {**asdict(self), "error": known, "text": str(self)}
 
 
 def minus(text: str) -> str:

@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 
 # Replicates of one seed of the lecture get seeds of their own below this number.
 _SEEDS = 4096
+# Those of a truth begin here.
+_TRUTHS = 2048
 
 
 class Run:
@@ -60,7 +62,7 @@ class Run:
 
     def _one(self, variant: Variant, replicate: int, step: Callable[[Progress], object]) -> Image:
         options = {name: self.pick(value) for name, value in variant.options.items()}
-        options.setdefault("seed", self.seeded(replicate))
+        options.setdefault("seed", self.seeded(replicate + (_TRUTHS if variant.truth else 0)))
         image = self.scene(variant.scene).render(progress=step, **options)
         self.rays += image.rays + image.shadow_rays
         return image

@@ -22,10 +22,12 @@ class Variant:
     """One picture of a figure: a scene and ordinary options of `Scene.render`.
 
     `key` names it in the figure and in its files. `scene` is called to build it. An option may be a `Pick`.
-    `replicates`: how often it is rendered, each with a seed of its own.
+    `replicates`: how often it is rendered, each with a seed of its own; variants share them, so that what two of them
+    have in common cancels, but for a `truth`: what others are judged by has random numbers of its own.
     """
 
     key: str
     scene: Callable[[], Scene]
     options: Mapping[str, Any] = field(default_factory=dict)
     replicates: int | Pick = 1
+    truth: bool = False

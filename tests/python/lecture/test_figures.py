@@ -25,6 +25,8 @@ def test_a_figure_runs_and_its_main_claim_holds(name, folder):
     assert result and result["exr"], "full numbers are kept"
     main = next(claim for claim in result["claims"] if claim["main"])
     assert main["verdict"] == "supported", main
+    refuted = [claim for claim in result["claims"] if claim["verdict"] == "not supported"]
+    assert not refuted, refuted
 
 
 def test_numbers_and_chapters_are_in_order():

@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 import numpy as np
+from numpy.typing import NDArray
 
 from antumbra.lecture.figure import Claim, Equation, Figure, Number, Pick, Question, Variant
-from antumbra.lecture.measures.penumbra import penumbra_width
+from antumbra.lecture.measures.penumbra import penumbra_widths
 from antumbra.lecture.measures.points import irradiance_at
 from antumbra.lecture.measures.ratio import excess, ratio
 from antumbra.lecture.measures.replicates import mean_of
@@ -32,19 +33,19 @@ FLOOR = {
 VIEW = FLOOR | {"eye": (2.9, 2.3, 2.0), "look_at": (-0.2, 0.2, 0.2), "up": (0.0, 1.0, 0.0), "fov": 0.78}
 
 
-def _width(run: Run, size: float, board: int) -> Quantity:
-    """On the line across the edge that lies in the middle of a board's shadow."""
+def _widths(run: Run, size: float, board: int) -> NDArray[np.float64]:
+    """16 replicates, on the line across the edge that lies in the middle of a board's shadow."""
     height, middle, _ = BOARDS[board]
     ends = [(side * size / 2, LIGHT_HEIGHT, 0.0) for side in (-1, 1)]
     half, row = 0.75 * RATIOS[board], middle / (1 - height / LIGHT_HEIGHT)
     line = ((-half, 0.0, row), (half, 0.0, row))
-    return penumbra_width(
+    return penumbra_widths(
         run, run.scene(boards_under_square(size)), line, ends, run.pick(Pick(1024, 16384)), board
     )
 
 
 def _measure(run: Run) -> Mapping[str, Quantity]:
-    width = {(s, b): _width(run, s, b) for s in FITTED for b in range(3)}
+    width = {(s, b): _widths(run, s, b) for s in FITTED for b in range(3)}
     point, unit = (
         irradiance_at(
             run.scene(boards_under_square(s)),
@@ -57,10 +58,12 @@ def _measure(run: Run) -> Mapping[str, Quantity]:
         for s in (0.0, 1.0)
     )
     return {
-        **{f"w{s:g}-{b}": w for (s, b), w in width.items()},
-        "doubled": mean_of([width[b, n].value / width[a, n].value for a, b in DOUBLED for n in range(3)]),
-        "share": mean_of([w.value / (s * RATIOS[b]) for (s, b), w in width.items()]),
-        "boards": ratio(width[1.0, 2], width[1.0, 0]),
+        **{f"w{s:g}-{b}": mean_of(w) for (s, b), w in width.items()},
+        "doubled": mean_of(
+            np.mean([width[b, n] / width[a, n] for a, b in DOUBLED for n in range(3)], axis=0)
+        ),
+        "share": mean_of(np.mean([w / (s * RATIOS[b]) for (s, b), w in width.items()], axis=0)),
+        "boards": mean_of(width[1.0, 2] / width[1.0, 0]),
         "below": excess(ratio(unit, point)),
     }
 

@@ -63,7 +63,6 @@ def _all_squares(run: Run) -> dict[str, NDArray[np.float64]]:
 
 def _measure(run: Run) -> Mapping[str, Quantity]:
     squares = _all_squares(run)
-    share = [float(_penumbra(run, size).mean()) for size in SIZES]
     at = SIZES.index(1.0)
     penumbra = statistics.root(statistics.mean(squares["penumbra"][:, at]))
     small = slice(0, at + 1)
@@ -75,7 +74,6 @@ def _measure(run: Run) -> Mapping[str, Quantity]:
         "times": of_interval(
             statistics.ratio(penumbra, statistics.root(statistics.mean(squares["lit"][:, at])))
         ),
-        "share": Quantity(share[at + 2] / share[at]),
     }
 
 

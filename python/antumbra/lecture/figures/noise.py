@@ -20,7 +20,7 @@ NAMES = {
     "light": "which light", "visibility": "visibility", "geometry": "geometry", "interaction": "both",
     "covariances": "covariances", "place": "pixel",
 }  # fmt: skip
-SIZE, VIEW = Pick((72, 51), (240, 168)), {"eye": (-7.4, 5.6, 5.4), "look_at": (0.3, 0.55, 0.3), "fov": 0.5}
+SIZE, VIEW = Pick((60, 42), (240, 168)), {"eye": (-7.4, 5.6, 5.4), "look_at": (0.3, 0.55, 0.3), "fov": 0.5}
 ONE = {
     "estimator": "area", "lights": "uniform", "light_points": "area", "sampler": "random", "filter": "box",
     "viewing_rays": 1, "shadow_rays": 1, "size": SIZE,
@@ -28,7 +28,7 @@ ONE = {
 
 
 def _parts(run: Run, replicate: int) -> decompose.Parts:
-    scene, count = run.scene(two_windows()), run.pick(Pick(4, 8))
+    scene, count = run.scene(two_windows()), run.pick(Pick(8, 16))
     found: decompose.Parts = run.once(
         replicate,
         lambda: decompose.of_picture(scene, run.pick(SIZE), 4, count, run.seeded(replicate), **VIEW),

@@ -49,7 +49,7 @@ class Rays(NamedTuple):
     def brings(self) -> Array:
         """What each adds to the pixel."""
         found: Array = (
-            BRDF_LIGHT / len(self.free) * self.free * self.cos * self.cos_light / (self.pdf * self.squared)
+            BRDF_LIGHT / len(self.free) * self.free * self.cos * self.cos_light * AREA / self.squared
         )
         return found
 

@@ -112,7 +112,7 @@ FIGURE = Figure(
     number=13, chapter=4, title="What a hundred shadow rays buy", seconds=Pick(8, 150),
     question=Question("One shadow ray leaves noise. By what factor is it smaller with 100, if they are random?",
                       ("100", "10", "about 3"), 1),
-    variants=[Variant("truth", builtin("pillars"), LOOK | TRUTH, 2)]
+    variants=[Variant("truth", builtin("pillars"), LOOK | TRUTH, 2, truth=True)]
     + [_variant(sampler, n) for sampler in FITTED for n in _counts(sampler)],
     measure=_measure, stage=_stage, exr=["random-100"],
     answer=Number("gain", "Random rays follow 1/√N: the slope is {random}. The same 100 rays, stratified, divide the noise by "

@@ -19,7 +19,7 @@ from antumbra.scene import Scene
 
 
 class Parts(NamedTuple):
-    """Unbiased estimates of the parts of the variance of one sample, (…,) each; they add up to the whole."""
+    """Estimates of the parts of the variance of one sample, (…,) each; they add up to the whole."""
 
     visibility: NDArray[np.float64]
     """ḡ² Var V"""
@@ -44,23 +44,28 @@ class Parts(NamedTuple):
 def parts(v: NDArray[Any], g: NDArray[Any]) -> Parts:
     """The parts from samples `v` (0 or 1) and `g` of shape (…, places, lights, samples), lights chosen all alike.
 
-    Samples are random; the lights are all there are; the places stand for a pixel evenly.
+    Samples are random; the lights are all there are; the places stand for a pixel evenly. The whole is unbiased. Its
+    split by V and g holds products of means, whose bias of order 1/samples the jackknife takes off (Quenouille 1956).
     """
     places, lights, samples = v.shape[-3:]
-    v_mean, g_mean = v.mean(-1, keepdims=True), g.mean(-1, keepdims=True)
-    a, b, c = g_mean * (v - v_mean), v_mean * (g - g_mean), (v - v_mean) * (g - g_mean)
-    terms = [x.var(-1, ddof=1) for x in (a, b, c)]
     x = v * g
-    inside = x.var(-1, ddof=1)
-    means = x.mean(-1)
+    inside, means = x.var(-1, ddof=1), x.mean(-1)
     # The scatter of finitely many samples is in the scatter of their means, and comes off there.
     noise = inside.mean(-1) / samples
     light = (means.var(-1) - (lights - 1) / lights * noise).mean(-1)
     by_place = means.mean(-1)
     place = by_place.var(-1, ddof=1) - (noise / lights).mean(-1) if places > 1 else np.zeros(light.shape)
-    visibility, geometry, interaction, all_inside = (t.mean((-1, -2)) for t in (*terms, inside))
-    covariances = all_inside - visibility - geometry - interaction
+    without = np.mean([_split(np.delete(v, n, -1), np.delete(g, n, -1)) for n in range(samples)], axis=0)
+    visibility, geometry, interaction = samples * _split(v, g) - (samples - 1) * without
+    covariances = inside.mean((-1, -2)) - visibility - geometry - interaction
     return Parts(visibility, geometry, interaction, covariances, light, place)
+
+
+def _split(v: NDArray[Any], g: NDArray[Any]) -> NDArray[np.float64]:
+    """ḡ² Var V, v̄² Var g, Var (V − v̄)(g − ḡ), each averaged over places and lights: (3, …)."""
+    v_mean, g_mean = v.mean(-1, keepdims=True), g.mean(-1, keepdims=True)
+    terms = g_mean * (v - v_mean), v_mean * (g - g_mean), (v - v_mean) * (g - g_mean)
+    return np.stack([term.var(-1, ddof=1).mean((-1, -2)) for term in terms])
 
 
 def of_picture(scene: Scene, size: tuple[int, int], side: int, count: int, seed: int, **camera: Any) -> Parts:

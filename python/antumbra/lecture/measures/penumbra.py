@@ -5,19 +5,18 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
-from antumbra.lecture.measures.replicates import mean_of
-from antumbra.lecture.quantity import Quantity
 from antumbra.lecture.run import Run
 from antumbra.scene import Scene
 
 Place = tuple[float, float, float]
 
 
-def penumbra_width(
+def penumbra_widths(
     run: Run, scene: Scene, line: tuple[Place, Place], ends: Sequence[Place], count: int, stream: int
-) -> Quantity:
-    """Length of the part of `line` that sees one of the `ends` of a light and not the other.
+) -> NDArray[np.float64]:
+    """Length of the part of `line` that sees one of the `ends` of a light and not the other, (16,).
 
     16 replicates of `count` evenly spaced points, each with a random offset; `stream` gives them numbers of their own.
     """
@@ -30,4 +29,4 @@ def penumbra_width(
         blocked = [scene.occluded(points, np.array(end)) for end in ends]
         widths.append(step * np.count_nonzero(blocked[0] != blocked[1]))
     run.rays += 32 * count
-    return mean_of(widths, note=f"16 × {count} points on a line")
+    return np.array(widths)

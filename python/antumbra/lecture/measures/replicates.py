@@ -10,11 +10,10 @@ from antumbra.study.statistics import Interval
 
 
 def mean_of(values: ArrayLike, unit: str = "", note: str = "") -> Quantity:
-    """Mean of independent replicates (the first axis) with its 95 % interval (Student's t); of one alone, no error."""
+    """Mean of independent replicates (the first axis) with its 95 % interval (Student's t); infinite of one alone."""
     return of_interval(statistics.mean(values), unit, note)
 
 
 def of_interval(interval: Interval, unit: str = "", note: str = "") -> Quantity:
     """An interval of `antumbra.study.statistics` as a quantity of the page: ± half of it."""
-    half = interval.half
-    return Quantity(interval.value, half if half < float("inf") else 0.0, unit, note)
+    return Quantity(interval.value, interval.half, unit, note)
