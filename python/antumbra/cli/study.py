@@ -150,6 +150,8 @@ def _told(found: Study, folder: Path) -> str:
     said = f"{_say.some(len(flagged), 'row')} of {len(found.rows)} biased" if flagged else "no bias found"
     if not found.tested():
         said = "bias was not tested"
+    elif (share := 100 * found.untested()) >= 0.5:
+        said += f", {share:.0f} % of the tiles not tested"
     return "\n".join(
         [
             *short_table(found),

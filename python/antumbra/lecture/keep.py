@@ -113,10 +113,9 @@ def _is_record(found: Any, name: str) -> bool:
     if not isinstance(found, dict) or (found.get("form"), found.get("name")) != (FORM, name):
         return False
     files = found.get("files")
-    placed = isinstance(files, list) and all(isinstance(f, str) and _PLACE.fullmatch(f) for f in files)
-    return (
-        placed and isinstance(found.get("key"), str) and all(f in files for f in _shown(found.get("stage")))
-    )
+    if not isinstance(files, list) or not all(isinstance(f, str) and _PLACE.fullmatch(f) for f in files):
+        return False
+    return isinstance(found.get("key"), str) and not [f for f in _shown(found.get("stage")) if f not in files]
 
 
 def _shown(part: Any) -> Iterator[Any]:

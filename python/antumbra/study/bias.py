@@ -27,14 +27,17 @@ class Bias(NamedTuple):
     """What the test found.
 
     `flagged`: the mean differs by more than noise explains; `p`: how often noise alone would seem as large (at most,
-    all tiles taken into account); `difference`: mean of the picture less the reference's, with its 95 % interval;
-    `tile`: (x, y, width, height) in pixels where it is clearest, None if that is the whole picture.
+    all tiles taken into account; NaN where nothing was tested); `difference`: mean of the picture less the
+    reference's, with its 95 % interval; `tile`: (x, y, width, height) in pixels where it is clearest, None if that is
+    the whole picture; `tested`: the share of tiles (the whole picture is one of them) that could be tested, 0 to 1, of
+    those that have light in either: 0 says that nothing is known.
     """
 
     flagged: bool
     p: float
     difference: statistics.Interval
     tile: Box | None
+    tested: float
 
 
 def bias(
@@ -52,8 +55,8 @@ def bias(
     Each of the tiles² tiles, and the whole, has one mean per replicate. Their difference from the reference's, over
     its standard error √(s²/K + s_r²/R), is compared with Student's t of min(K, R) − 1 degrees of freedom (fewer than
     Welch's 1947, so careful). The least p of all of them, times their number (Bonferroni), must fall below `alpha`.
-    Nothing is tested where the means of single replicates spread by more than 30 %, in a tile that is black in one of
-    the two, and against a black reference: too few samples found light for their spread to measure their noise.
+    Nothing is tested where the means of single replicates spread by more than 30 %, and in a tile (or a picture) that
+    is black in one of the two: too few samples found light for their spread to measure their noise.
     """
     x, r = np.asarray(replicates, np.float64), np.asarray(reference, np.float64)
     r = r[None] if r.ndim == x.ndim - 1 else r
@@ -69,17 +72,20 @@ def bias(
     boxes = _boxes(x.shape[1], x.shape[2], tiles)
     places: list[Box | None] = [None, *(boxes if len(boxes) > 1 else [])]
     gaps = [_gap(_cells(x, place), _cells(r, place), _cells(own, place)) for place in places]
-    tests = [
-        1.0 if gap.black and (place or not r.any()) else gap.p()
-        for gap, place in zip(gaps, places, strict=True)
-    ]
-    best = min(range(len(tests)), key=tests.__getitem__)
-    p = min(1.0, tests[best] * len(tests))
-    return Bias(p < alpha, p, gaps[0].interval(), places[best])
+    lit = sum(gap.mean > 0 for gap in gaps)
+    tests = {i: gap.p() for i, gap in enumerate(gaps) if gap.testable}
+    if not tests:
+        return Bias(False, math.nan, gaps[0].interval(), None, 0.0)
+    best = min(tests, key=tests.__getitem__)
+    p = min(1.0, tests[best] * len(gaps))
+    return Bias(p < alpha, p, gaps[0].interval(), places[best], len(tests) / lit)
 
 
 class _Gap(NamedTuple):
-    """A difference of two means, its standard error and degrees of freedom, the larger mean, the worst spread."""
+    """A difference of two means, its standard error and degrees of freedom, the larger mean, the worst spread.
+
+    `black`: one of the two has no light, or both.
+    """
 
     value: float
     error: float
@@ -88,10 +94,13 @@ class _Gap(NamedTuple):
     spread: float
     black: bool
 
+    @property
+    def testable(self) -> bool:
+        """Whether enough samples found light in both."""
+        return self.spread <= MOST_SPREAD and not self.black
+
     def p(self) -> float:
         """Two-sided p. Where neither has noise, only the rounding of single precision is forgiven."""
-        if self.spread > MOST_SPREAD:
-            return 1.0
         if self.error == 0:
             return 0.0 if abs(self.value) > 1e-6 * abs(self.mean) else 1.0
         return max(0.0, 1.0 - t_inside(abs(self.value) / self.error, self.dof))

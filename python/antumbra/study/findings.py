@@ -13,8 +13,9 @@ from typing import Any
 import numpy as np
 
 from antumbra.study import statistics
+from antumbra.study.bias import Bias
 from antumbra.study.plot import Curve
-from antumbra.study.rows import Row
+from antumbra.study.rows import Row, untested
 from antumbra.study.statistics import Interval
 
 
@@ -59,8 +60,12 @@ class Findings:
         return [r for r in self.rows if r.bias is not None and r.bias.flagged]
 
     def tested(self) -> bool:
-        """Whether there is a reference, and light in it."""
-        return any(r.bias is not None and r.true_mean for r in self.rows)
+        """Whether bias was tested anywhere: there is a reference, and enough samples found light."""
+        return any(r.tested for r in self.rows)
+
+    def untested(self) -> float:
+        """The share of tiles, of all rows with a reference, where bias could not be tested; 0 without a reference."""
+        return untested(self.rows)
 
     def error(self, row: Row) -> Interval | None:
         """Root mean square error of a row: without bias, the standard deviation over seeds, which needs no reference.
@@ -155,6 +160,7 @@ def flat(study: Findings, row: Row) -> dict[str, str | float]:
     """A row as a line of the CSV."""
     line: dict[str, str | float] = {"curve": study.name_of(row)}
     line |= {name.replace("_", "-"): value for name, value in row.values.items()}
+    line |= {} if row.budget is None else {"budget": row.budget}
     line |= {"viewing-rays": row.viewing_rays, "shadow-rays": row.shadow_rays, "rays-per-pixel": row.rays}
     for name in ("seconds", "variance", "mse", "rmse", "efficiency"):
         found: Interval = getattr(row, name) or Interval(math.nan, math.nan, math.nan)
@@ -163,8 +169,14 @@ def flat(study: Findings, row: Row) -> dict[str, str | float]:
     if row.bias is not None:
         line |= {"bias": row.bias.difference.value, "bias-low": row.bias.difference.low,
                  "bias-high": row.bias.difference.high, "bias-p": row.bias.p,
-                 "biased": "yes" if row.bias.flagged else "no"}  # fmt: skip
+                 "bias-tested": row.bias.tested, "biased": _answer(row.bias)}  # fmt: skip
     return line
+
+
+def _answer(bias: Bias) -> str:
+    if not bias.tested:
+        return "not tested"
+    return "yes" if bias.flagged else "no"
 
 
 def _variances(rows: Sequence[Row]) -> Any:

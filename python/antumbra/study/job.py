@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -18,7 +19,7 @@ from antumbra.study.files import check_folder, finished_rows, keep, write
 from antumbra.study.plan import Plan, Variant
 from antumbra.study.renders import Step, Work
 from antumbra.study.result import Study
-from antumbra.study.rows import Reference, Row, measured
+from antumbra.study.rows import Pictures, Reference, Row, measured, untested
 from antumbra.study.sources import Source
 
 # A test of bias whose interval is wider than this, as a part of the mean, is worth a note.
@@ -122,7 +123,9 @@ class Job:
             reference = self.given
             for variant in (v for v in self.plan.variants if v.truth() == truth):
                 if self._key(variant) in kept:
-                    yield kept[self._key(variant)]
+                    row = kept[self._key(variant)]
+                    # Its place among the truths and on the axis are those of this plan.
+                    yield replace(row, truth=number, n=self._n(variant, row.rays, row.seconds.value))
                     continue
                 if words is not None and reference is None:
                     reference = renders.reference_by(variant, words, self.work)
@@ -138,15 +141,17 @@ class Job:
             seconds.append(image.seconds)
             rays += renders.rays_per_pixel(image) / self.plan.seeds
         viewing, shadow = renders.numbers_of_rays(variant.words)
+        n = self._n(variant, rays, sum(seconds) / len(seconds))
         return measured(
             renders.stacked(pictures), seconds, reference,
-            values=variant.values, n=self._n(variant), budget=variant.budget, truth=truth,
+            values=variant.values, n=n, budget=variant.budget, truth=truth,
             viewing_rays=viewing, shadow_rays=shadow, rays=rays,
         )  # fmt: skip
 
-    def _n(self, variant: Variant) -> float | None:
+    def _n(self, variant: Variant, rays: float, seconds: float) -> float | None:
+        """Its place on the axis: of a budget, what was spent, because rounding misses what was asked for."""
         if self.plan.axis == "budget":
-            return variant.budget
+            return rays if self.plan.budget == "rays" else seconds
         return float(variant.values[self.plan.axis]) if self.plan.axis else None
 
     def _key(self, variant: Variant) -> str:
@@ -156,13 +161,16 @@ class Job:
         """Equal for two studies whose rows may be mixed: the same scene, settings, seeds and reference."""
         if not self.source.identity:
             return ""
-        given = self.given.pictures.tobytes() if self.given else b""
+        given = [None if a is None else hashlib.sha256(a.tobytes()).hexdigest() for a in self._given_arrays()]
         whole = [
             __version__, self.source.identity, self.plan.fixed, self.plan.seeds, self.plan.first_seed, self.by,
             self._reference_rays(), sorted(self.plan.variants[0].parameters.items() - _varied(self.plan)),
-            hashlib.sha256(given).hexdigest(), self.plan.budget,
+            given, self.plan.budget,
         ]  # fmt: skip
         return hashlib.sha256(json.dumps(whole).encode()).hexdigest()[:16]
+
+    def _given_arrays(self) -> list[Pictures | None]:
+        return [self.given.pictures, self.given.error] if self.given else []
 
     def _reference_rays(self) -> str:
         """Viewing rays of each seed of a rendered reference."""
@@ -208,18 +216,18 @@ def _about_reference(rows: list[Row]) -> list[tuple[str, str, str]]:
     if any(r.mean and not r.true_mean for r in tested):
         what = "the reference found no light: bias was not tested (--reference names another estimator or picture)"
         return [("warning", "", what)]
-    blunt = max(
-        (r.bias.difference.half / abs(r.true_mean) for r in tested if r.bias and r.true_mean), default=0.0
-    )
+    found: list[tuple[str, str, str]] = []
+    if (share := 100 * untested(rows)) >= 0.5:
+        what = f"bias was not tested in {share:.0f} % of the tiles: too few samples found light there"
+        found = [("note" if all(r.tested for r in tested) else "warning", "", what)]
+    shares = [
+        r.bias.difference.half / abs(r.true_mean) for r in tested if r.bias and r.tested and r.true_mean
+    ]
+    blunt = max(shares, default=0.0)
     if blunt <= _BLUNT:
-        return []
+        return found
     hidden = (
         f"a bias below {100 * blunt:.0f} % of the mean" if blunt < 1 else "a bias even as large as the mean"
     )
-    return [
-        (
-            "note",
-            "",
-            f"{hidden} is hidden by noise here: more seeds or reference rays, or another reference, help",
-        )
-    ]
+    what = f"{hidden} is hidden by noise here: more seeds or reference rays, or another reference, help"
+    return [*found, ("note", "", what)]

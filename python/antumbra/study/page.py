@@ -77,7 +77,7 @@ def _facts(study: Findings) -> dict[str, Any]:
 
 def axis_title(study: Findings) -> str:
     """What the numbers below the plot are of."""
-    budgets = {"rays": "budget, rays per pixel", "seconds": "budget, seconds per picture"}
+    budgets = {"rays": "rays per pixel, of any kind", "seconds": "seconds per picture"}
     known = {"shadow_rays": "shadow rays, N", "viewing_rays": "viewing rays per pixel, N"}
     if study.axis == "budget":
         return budgets[study.budget]
@@ -99,7 +99,9 @@ def _plot(study: Findings, over: str) -> str:
         y_title=f"RMSE, {RADIANCE}",
         label=f"RMSE against {title}. {said}.",
         chosen=study.name_of(best) if best else None,
-        x_ticks=None if not of_time else _decades([x for c in curves for x in c.x]),
+        x_ticks=None
+        if not of_time and study.axis != "budget"
+        else _decades([x for c in curves for x in c.x]),
         logarithmic=(of_time or numbers, True),
     )
 
@@ -152,6 +154,8 @@ def _times(gain: Interval) -> str:
 def _bias(row: Row) -> str:
     if row.bias is None or not row.true_mean:
         return "–"
+    if not row.tested:
+        return "not tested"
     found, whole = row.bias.difference, abs(row.true_mean)
     return f"{plus_minus(100 * found.value / whole, 100 * found.half / whole)} %"
 

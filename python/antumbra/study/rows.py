@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
 
@@ -47,10 +48,11 @@ class Reference:
 class Row:
     """A variant and its numbers. Radiance in W·m⁻²·sr⁻¹, errors averaged over pixels and channels, intervals 95 %.
 
-    `values`: what was varied; `n`: its place on the axis; `budget`: what it was to spend, if there was one; `rays`: of
-    any kind that were traced per pixel; `seconds` per picture; `mse` and `bias` against the reference, whose own
-    `reference_variance` is taken off `mse` (None without one); `efficiency` = 1/(variance × seconds). `squared`:
-    squared error of each seed; `variances`: of all seeds, and without each in turn. `truth`: which of the references.
+    `values`: what was varied; `n`: its place on the axis (of a budget, what was really spent); `budget`: what it was to
+    spend, if there was one; `rays`: of any kind that were traced per pixel; `seconds` per picture; `mse` and `bias`
+    against the reference, whose own `reference_variance` is taken off `mse` (None without one); `efficiency` =
+    1/(variance × seconds). `squared`: squared error of each seed; `variances`: of all seeds, and without each in turn.
+    `truth`: which of the references.
     """
 
     values: dict[str, str]
@@ -83,6 +85,11 @@ class Row:
         return 0.0 if abs(found) < 1e-12 * abs(self.mean) else found
 
     @property
+    def tested(self) -> bool:
+        """Whether its bias could be tested, at least in one tile."""
+        return self.bias is not None and self.bias.tested > 0
+
+    @property
     def noisy(self) -> bool:
         """Whether its seeds differ at all; a regular grid has the same error each time."""
         return self.variance.value > 0
@@ -98,9 +105,16 @@ class Row:
         for name in ("seconds", "variance", "efficiency", "mse"):
             found[name] = None if plain[name] is None else _interval(plain[name])
         if plain["bias"] is not None:
-            flagged, p, difference, tile = plain["bias"]
-            found["bias"] = Bias(flagged, p, _interval(difference), tuple(tile) if tile else None)
+            flagged, p, difference, tile, tested = plain["bias"]
+            p = math.nan if p is None else p
+            found["bias"] = Bias(flagged, p, _interval(difference), tuple(tile) if tile else None, tested)
         return cls(**found)
+
+
+def untested(rows: Sequence[Row]) -> float:
+    """The share of tiles where bias could not be tested, of all rows that have a reference; 0 if none has."""
+    shares = [1 - row.bias.tested for row in rows if row.bias is not None]
+    return sum(shares) / len(shares) if shares else 0.0
 
 
 def _interval(ends: list[float | None]) -> Interval:
@@ -123,13 +137,15 @@ def measured(pictures: Pictures, seconds: list[float], reference: Reference | No
     }
     if reference is not None:
         squared = statistics.squared_errors(pictures, reference.mean, reference.variance)
+        several = len(reference.pictures) > 1
+        own = statistics.reference_half(pictures, reference.pictures) if len(reference.pictures) > 2 else 0.0
         row |= {
             "squared": [float(e) for e in squared],
-            "mse": statistics.mse_of(squared),
+            "mse": statistics.mse_of(squared, own_half=own),
             "reference_variance": reference.variance,
             "bias": bias(
                 pictures,
-                reference.pictures if len(reference.pictures) > 1 else reference.pictures[0],
+                reference.pictures if several else reference.pictures[0],
                 reference.error,
             ),
         }

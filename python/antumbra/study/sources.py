@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from antumbra import _core
 from antumbra.errors import OptionError
+from antumbra.study.content import content
 
 if TYPE_CHECKING:
     from antumbra.scene import Scene
@@ -59,8 +60,7 @@ def file(path: str, up_axis: str | None = None, files_from: str | None = None) -
     from antumbra.scene import load
 
     at = Path(path)
-    state = f"{at.stat().st_size} {at.stat().st_mtime_ns}" if at.exists() else ""
-    identity = f"{at.resolve()} {state} {up_axis} {files_from}"
+    identity = f"{at.resolve()} {content(at)} {up_axis} {files_from}"
     opened: list[Scene] = []
 
     def once(_: Parameters) -> Scene:

@@ -176,14 +176,32 @@ def squared_errors(
 def mse(
     replicates: ArrayLike, reference: ArrayLike, reference_variance: ArrayLike = 0.0, level: float = LEVEL
 ) -> Interval:
-    """Mean squared error against a reference (as in `squared_errors`), with the t-interval over replicates."""
+    """Mean squared error against a reference (as in `squared_errors`), with the t-interval over replicates.
+
+    The noise of the reference, which all replicates share, is not in it: `reference_half` says what it adds.
+    """
     return mse_of(squared_errors(replicates, reference, reference_variance), level)
 
 
-def mse_of(squared: ArrayLike, level: float = LEVEL) -> Interval:
-    """The same from the squared errors of each replicate, (K,)."""
+def mse_of(squared: ArrayLike, level: float = LEVEL, own_half: float = 0.0) -> Interval:
+    """The same from the squared errors of each replicate, (K,); `own_half`, the reference's, is added in quadrature."""
     found = mean(squared, level)
-    return Interval(found.value, max(found.low, 0.0), found.high)
+    half = math.hypot(found.half, own_half)
+    return Interval(found.value, max(found.value - half, 0.0), found.value + half)
+
+
+def reference_half(replicates: ArrayLike, references: ArrayLike, level: float = LEVEL) -> float:
+    """Half the interval of `mse` that the noise of the reference gives: the mean of R replicates (R, …), R ≥ 3.
+
+    The jackknife's over those (as in `variance`): without the j-th, the mean squared error, less the variance of the
+    mean of those that are left, differs by the average cell of (x̄ − r̄₍ⱼ₎)² − (x̄ − r̄)², less that of the variances.
+    """
+    x, r = np.asarray(replicates, np.float64).mean(axis=0), np.asarray(references, np.float64)
+    count = len(r)
+    centre, spreads = r.mean(axis=0), variances_without(r)
+    own = spreads / np.concatenate([[count], np.full(count, count - 1)])
+    without = np.stack([centre, *((count * centre - one) / (count - 1) for one in r)])
+    return _jackknife(_per_replicate((x - without) ** 2) - own, level).half
 
 
 def rmse(

@@ -50,6 +50,32 @@ def test_a_reference_that_found_the_light_by_luck_accuses_nobody():
         assert not bias(noisy(random, 6, np.ones((16, 16)), 0.1), lucky).flagged
 
 
+def test_what_too_few_samples_found_is_not_tested():
+    random = np.random.default_rng(5)
+    lit, black = noisy(random, 6, TRUTH, 0.1), np.zeros((6, 16, 16))
+    assert bias(lit, TRUTH).tested == 1
+    # Few samples that found light: means of single replicates spread by more than themselves.
+    lucky = 1e3 * (random.uniform(size=(6, 16, 16)) < 1e-3)
+    for x, reference in ((black, lit), (black, TRUTH), (lit, black), (lit, lucky), (black, black)):
+        found = bias(x, reference)
+        assert not found.flagged and found.tested == 0 and np.isnan(found.p)
+
+
+def test_a_black_tile_is_not_tested_and_the_others_are():
+    random = np.random.default_rng(6)
+    x = noisy(random, 6, TRUTH, 0.1)
+    x[:, :4] = 0
+    # Black in both: no light is there to be tested.
+    x[:, 12:, 12:] = 0
+    truth = TRUTH.copy()
+    truth[12:, 12:] = 0
+    found = bias(x, truth)
+    # Of 16 tiles and the whole, one has no light, and four are black in one of the two.
+    assert found.tested == (17 - 1 - 4) / (17 - 1)
+    # The whole picture is darker than the reference by a fifth.
+    assert found.flagged and found.tile is None
+
+
 def test_without_noise_only_a_real_difference_counts():
     same = np.stack([TRUTH] * 3)
     assert not bias(same, TRUTH).flagged

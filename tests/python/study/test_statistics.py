@@ -74,6 +74,34 @@ def test_the_reference_s_own_noise_is_taken_off_an_error():
     assert st.rmse(x, reference, 0.25).value == pytest.approx(math.sqrt(found.value))
 
 
+@pytest.mark.parametrize("sigma", [0.0, 0.1])
+def test_the_interval_of_an_error_against_a_noisy_reference_covers_it(sigma):
+    # A bias of 0.5 in each of 60 cells, with noise or without (a regular grid); the reference's noise is shared.
+    random = np.random.default_rng(8)
+    found, alone = [], []
+    for _ in range(M):
+        x = 0.5 + random.normal(0, sigma, (6, 60)) if sigma else np.full((6, 60), 0.5)
+        reference = random.normal(0, 1.0, (8, 60))
+        own = reference.var(axis=0, ddof=1) / 8
+        squared = st.squared_errors(x, reference.mean(axis=0), own)
+        found.append(st.mse_of(squared, own_half=st.reference_half(x, reference)))
+        alone.append(st.mse_of(squared))
+    assert coverage(alone, 0.25 + sigma**2) < 0.5
+    # The jackknife of a square is careful: it holds more than 95 %, less than 99.
+    assert 0.95 - ALLOWED < coverage(found, 0.25 + sigma**2) < 0.99
+
+
+def test_the_jackknife_over_a_reference_leaves_one_out():
+    random = np.random.default_rng(9)
+    x, r = random.normal(0, 1, (5, 7)), random.normal(0, 1, (6, 7))
+
+    def whole(of):
+        return float(st.squared_errors(x, of.mean(axis=0), of.var(axis=0, ddof=1) / len(of)).mean())
+
+    pseudo = [6 * whole(r) - 5 * whole(np.delete(r, j, axis=0)) for j in range(6)]
+    assert st.reference_half(x, r) == pytest.approx(st.mean(pseudo).half, rel=1e-9)
+
+
 def test_slopes_of_power_laws_are_found():
     n = np.array([1, 4, 16, 64])
     exact = 7.0 * n**-1.5

@@ -14,6 +14,8 @@ import pytest
 import antumbra as am
 from antumbra.study import StudyStopped, files, plan, renders
 from antumbra.study import statistics as st
+from antumbra.study.content import content
+from antumbra.study.page import short_table
 
 # One ray through the centre of each pixel, points uniform on the lights: all noise is that of the shadow rays.
 SHADOW_RAYS = {"estimator": "area", "light_points": "area", "viewing_rays": 1, "viewing": "centre"}
@@ -73,7 +75,8 @@ def test_a_grid_without_noise_is_held_against_the_reference():
                   **{**SHADOW_RAYS, "shadow_rays": 4})  # fmt: skip
     regular, random = found.rows
     assert regular.variance.value == 0 and random.noisy
-    assert found.error(regular).value > 0
+    # Its error has that of the reference.
+    assert found.error(regular).value > 0 and found.error(regular).half > 0
     assert np.isnan(regular.efficiency.value)
     assert "nan" not in found.html().lower().replace("nanum", "")
 
@@ -89,7 +92,9 @@ def test_a_budget_of_rays_is_spent_by_all_alike():
     found = study("pillars", vary={"estimator": ["area", "mis"]}, budget={"rays": [12, 48]})
     for row in found.rows:
         # One more viewing ray brings up to 3 rays (viewing, light, direction): half of that is what rounding leaves.
-        assert abs(row.rays - row.n) <= 1.5 + 0.02 * row.n
+        assert abs(row.rays - row.budget) <= 1.5 + 0.02 * row.budget
+        # What rounding left is what slopes are fitted against.
+        assert row.n == row.rays
     assert found.axis == "budget" and found.slope("area").value < -0.5
 
 
@@ -107,6 +112,19 @@ def test_a_budget_of_seconds_is_measured_by_pilots():
     assert all(row.viewing_rays > 1 for row in found.rows)
     # A clock on a busy machine: only the order of magnitude is a law.
     assert all(0.05 / 10 < row.seconds.value < 0.05 * 10 for row in found.rows)
+
+
+def test_slopes_over_a_budget_are_of_what_was_spent():
+    # Of 3 and 4 rays asked for, a viewing ray of about 2 leaves as many or a third less: the law holds all the same.
+    found = study(
+        "pillars", vary={"sampler": ["random"]}, budget={"rays": [3, 4, 96]}, estimator="area", seeds=8
+    )
+    spent = [row.rays for row in found.rows]
+    assert [row.n for row in found.rows] == spent != [row.budget for row in found.rows]
+    expected = st.variance_slope(spent, np.array([row.variances for row in found.rows]).T)
+    assert found.slope("area") == pytest.approx(expected)
+    timed = study("pillars", vary={"sampler": ["random"]}, budget={"seconds": [0.01, 0.03]}, estimator="area")
+    assert [row.n for row in timed.rows] == sorted(row.seconds.value for row in timed.rows)
 
 
 def test_a_picture_may_be_the_reference(tmp_path):
@@ -170,6 +188,69 @@ def test_a_stopped_study_keeps_its_rows_and_goes_on(tmp_path, monkeypatch):
     assert len(calls) - 100 == 8 + 2 * 3
     whole = am.study.run("pillars", **SMALL)
     assert [r.variances for r in found.rows] == [r.variances for r in whole.rows]
+
+
+def test_kept_rows_have_the_places_of_the_new_plan(tmp_path):
+    options = {**SMALL, "vary": {"D.light-size": [2]}, "reference": "mis", "folder": tmp_path}
+    (alone,) = am.study.run("pillars", **options).rows
+    assert alone.truth == 0 and alone.n is None
+    both = am.study.run("pillars", **{**options, "vary": {"D.light-size": [0.5, 2]}}).rows
+    assert [(row.truth, row.n) for row in both] == [(0, 0.5), (1, 2.0)]
+    assert both[1].variances == alone.variances and both[1].seconds == alone.seconds
+
+
+def test_rows_of_another_reference_error_are_not_mixed(tmp_path):
+    scene = am.builtin("pillars")
+    picture = scene.render(estimator="mis", viewing_rays=64, size=(8, 6))
+    for name in ("truth.exr", "error.exr"):
+        picture.save(tmp_path / name)
+    given = {
+        "reference": tmp_path / "truth.exr",
+        "reference_error": tmp_path / "error.exr",
+        "folder": tmp_path / "out",
+    }
+    first = am.study.run("pillars", **given, **SMALL)
+    am.builtin("pillars", light_size=0.5).render(viewing_rays=4, size=(8, 6)).save(tmp_path / "error.exr")
+    again = am.study.run("pillars", **given, **SMALL)
+    assert again.fingerprint != first.fingerprint
+    assert again.rows[0].reference_variance != first.rows[0].reference_variance
+
+
+GLTF = '{"images": [{"uri": "the%20data.bin"}]}'
+
+
+@pytest.mark.parametrize(
+    ("scene", "text"),
+    [
+        ("a.gltf", GLTF),
+        ("a.glb", "glTF........" + chr(len(GLTF)) + "\0\0\0JSON" + GLTF + "and binary data"),
+        ("a.obj", "mtllib a.mtl\nv 0 0 0"),
+    ],
+    ids=["gltf", "glb", "obj"],
+)
+def test_a_scene_is_another_when_a_file_beside_it_changes(tmp_path, scene, text):
+    (tmp_path / scene).write_text(text, encoding="utf-8")
+    (tmp_path / "a.mtl").write_text("newmtl a\nmap_Kd -s 1 1 the data.bin data.bin", encoding="utf-8")
+    seen = []
+    for data in ("old", "new", "old"):
+        (tmp_path / "the data.bin").write_text(data, encoding="utf-8")
+        (tmp_path / "data.bin").write_text(data, encoding="utf-8")
+        (tmp_path / "unrelated.bin").write_text(str(len(seen)), encoding="utf-8")
+        seen.append(content(tmp_path / scene))
+    assert seen[0] == seen[2] != seen[1]
+
+
+def test_what_is_not_tested_is_told_on_page_and_terminal():
+    # A light that few directions hit, and few of them: their spread says nothing.
+    found = study("pillars", vary={"estimator": ["hemisphere"]}, viewing_rays=1, reference="area", size=(8, 6),
+                  parameters={"light_size": 0.05})  # fmt: skip
+    (row,) = found.rows
+    assert row.bias.tested == 0 and found.untested() == 1 and not found.tested()
+    assert any("not tested in 100 % of the tiles" in text for _, _, text in found.messages)
+    assert ">not tested<" in found.html() and short_table(found)[1].endswith("not tested")
+    assert found.csv().splitlines()[1].endswith(",nan,0.0,not tested")
+    again = type(row).of_json(json.loads(found.json())["rows"][0])
+    assert again.bias.tested == 0 and np.isnan(again.bias.p)
 
 
 def test_a_study_that_is_stopped_at_once_leaves_nothing(tmp_path, monkeypatch):

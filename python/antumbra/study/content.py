@@ -1,0 +1,63 @@
+"""What a scene's file holds, with the files that it names, as one number."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+from urllib.parse import unquote
+
+# The first bytes of a binary glTF, and its JSON's length and place in it (glTF 2.0, section 4.4).
+_GLB, _LENGTH, _JSON = b"glTF", slice(12, 16), 20
+
+
+def content(scene: Path) -> str:
+    """Changes with the bytes of a scene's file and of those beside it that it names; the same if those are the same."""
+    seen = hashlib.sha256()
+    waiting, known = [scene], {scene}
+    while waiting:
+        file = waiting.pop(0)
+        try:
+            data = file.read_bytes() if file.is_file() else b""
+        except OSError:
+            # What cannot be read is told when the scene is.
+            data = b""
+        seen.update(hashlib.sha256(data).digest())
+        names = _named(file.suffix.lower(), data)
+        beside = [folder / name for name in names for folder in (scene.parent, file.parent)]
+        waiting += [f for f in dict.fromkeys(beside) if f not in known]
+        known.update(beside)
+    return seen.hexdigest()
+
+
+def _named(suffix: str, data: bytes) -> Iterator[str]:
+    """The files that a glTF, an OBJ or an MTL names, relative to it."""
+    if suffix in (".gltf", ".glb"):
+        if data.startswith(_GLB):
+            data = data[_JSON : _JSON + int.from_bytes(data[_LENGTH], "little")]
+        try:
+            yield from _uris(json.loads(data))
+        except (ValueError, RecursionError):
+            return
+    elif suffix in (".obj", ".mtl"):
+        for line in data.splitlines():
+            key, *words = line.decode("utf-8", "replace").split(maxsplit=1)[:2] or [""]
+            if words and (key.lower() == "mtllib" if suffix == ".obj" else key.lower().startswith(_MAPS)):
+                # A name may have spaces, stand after options, or be one of several.
+                yield from dict.fromkeys([words[0].strip(), *words[0].split()])
+
+
+_MAPS = ("map_", "bump", "norm", "disp")
+
+
+def _uris(part: Any) -> Iterator[str]:
+    if isinstance(part, dict):
+        uri = part.get("uri")
+        if isinstance(uri, str) and not uri.startswith("data:"):
+            yield unquote(uri)
+        part = list(part.values())
+    if isinstance(part, list):
+        for inner in part:
+            yield from _uris(inner)
