@@ -56,7 +56,7 @@ impl Facets {
         if self.slopes == Slopes::Beckmann {
             let slope2 = (x * x + y * y) / (v.z * v.z);
             // Beyond e⁻⁸⁰ there is no facet in f32; not-a-number where there is no half vector.
-            if !(slope2 < 80.0) {
+            if slope2.is_nan() || slope2 > 80.0 {
                 return 0.0;
             }
             let r = v.length_squared() / (v.z * v.z);
