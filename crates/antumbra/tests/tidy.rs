@@ -113,7 +113,7 @@ fn files_are_one_idea() {
         }
         let rust = path.extension().is_some_and(|e| e == "rs");
         // A docstring with backslashes is a raw one.
-        let docstring = text.strip_prefix('r').unwrap_or(&text).starts_with("\"\"\"");
+        let docstring = text.strip_prefix('r').unwrap_or(text).starts_with("\"\"\"");
         let opens_well = if rust { text.starts_with("//!") } else { docstring };
         if !opens_well && !text.trim().is_empty() {
             faults.push(format!("{}: its first line does not say what it is", path.display()));
