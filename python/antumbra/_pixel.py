@@ -24,7 +24,7 @@ class LightRay(NamedTuple):
     distance: float
     """r; inf at infinity."""
     cos: float
-    """cos θ at the receiver."""
+    """|cos θ| at the receiver; 1 for mirrors, whose f_r holds it."""
     cos_light: float
     """|cos θ′| at the light; 1 where it has no surface, NaN where a direction found it."""
     radiance: Triple
@@ -34,7 +34,7 @@ class LightRay(NamedTuple):
     pdf: float
     """p(light) · p(ω_i) in solid angle at the receiver [1/sr]; for single directions p(light)."""
     weight: float
-    """Its share against the other strategy (mis), times what a mistake adds."""
+    """Its share against the other strategy (mis), times what a mistake adds and what an alpha mask covers."""
     visible: bool | None
     """V; None = not asked, because nothing could be carried."""
     blocker: str | None

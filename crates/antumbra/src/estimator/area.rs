@@ -31,7 +31,7 @@ impl Estimator for Area {
         at: &Receiver,
         u: &Draws<'_>,
         scratch: &mut Scratch,
-        visit: &mut dyn FnMut(Drawn),
+        visit: &mut dyn FnMut(&Receiver, Drawn),
     ) {
         if sees_lights(&at.bsdf) {
             self.lights.each(scene, at, u, None, scratch, visit);

@@ -88,22 +88,8 @@ impl Lights {
         other: Option<&dyn Fn(&LightSample) -> f32>,
         out: &mut Proposals,
     ) {
-        self.propose_from(scene, at, u, other, out);
-        if at.spreads_through() {
-            self.propose_from(scene, &at.from_behind(), u, other, out);
-        }
-    }
-
-    fn propose_from(
-        &self,
-        scene: &Scene,
-        at: &Receiver,
-        u: &Draws<'_>,
-        other: Option<&dyn Fn(&LightSample) -> f32>,
-        out: &mut Proposals,
-    ) {
         let mut weights = std::mem::take(&mut out.light_weights);
-        self.each(scene, at, u, other, &mut weights, |drawn| {
+        self.each(scene, at, u, other, &mut weights, |at, drawn| {
             if let (Some(to), false) = (&drawn.to, drawn.carried.is_black()) {
                 out.segment(at, drawn.nth.j, to, plane_of(at), drawn.carried);
             }
@@ -111,9 +97,26 @@ impl Lights {
         out.light_weights = weights;
     }
 
-    /// Draws the N points (of each light) that `propose` draws on the side of the receiver, in its order.
+    /// Draws the N points (of each light) that `propose` draws, in its order: from the receiver, then from behind it.
     #[inline]
     pub fn each(
+        &self,
+        scene: &Scene,
+        at: &Receiver,
+        u: &Draws<'_>,
+        other: Option<&dyn Fn(&LightSample) -> f32>,
+        weights: &mut Scratch,
+        mut visit: impl FnMut(&Receiver, Drawn),
+    ) {
+        self.each_from(scene, at, u, other, weights, |drawn| visit(at, drawn));
+        if at.spreads_through() {
+            let behind = at.from_behind();
+            self.each_from(scene, &behind, u, other, weights, |drawn| visit(&behind, drawn));
+        }
+    }
+
+    #[inline]
+    fn each_from(
         &self,
         scene: &Scene,
         at: &Receiver,

@@ -83,7 +83,7 @@ impl Estimator for Mis {
         at: &Receiver,
         u: &Draws<'_>,
         scratch: &mut Scratch,
-        visit: &mut dyn FnMut(Drawn),
+        visit: &mut dyn FnMut(&Receiver, Drawn),
     ) {
         if sees_lights(&at.bsdf) {
             let other = self.other(at, u, u.count(at));

@@ -158,14 +158,15 @@ pub trait Estimator: Sync {
     /// Segments that carry light if they are free; rays that carry throughput onward.
     fn propose(&self, scene: &Scene, at: &[Receiver], u: &Draws<'_>, out: &mut Proposals);
 
-    /// The light points that `propose` draws for one receiver, in its order, with every factor (what `explain` shows).
+    /// The light points that `propose` draws for one receiver, in its order, with every factor (what `explain` shows);
+    /// each with the receiver it leaves, on the one or the other side of the surface.
     fn each_point(
         &self,
         _scene: &Scene,
         _at: &Receiver,
         _u: &Draws<'_>,
         _scratch: &mut Scratch,
-        _visit: &mut dyn FnMut(Drawn),
+        _visit: &mut dyn FnMut(&Receiver, Drawn),
     ) {
     }
 

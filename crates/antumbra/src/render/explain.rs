@@ -5,7 +5,7 @@ use antumbra_trace::{Bits, Hits, NO_PRIM, PrimId, Visibility};
 
 use super::{bounces, camera, view};
 use crate::estimator::{
-    Drawn, Draws, Estimator, EstimatorKind, Found, FoundLight, Onward, Proposals, plane_of,
+    Drawn, Draws, Estimator, EstimatorKind, Found, FoundLight, Mistake, Onward, Proposals, plane_of,
 };
 use crate::film::{Film, Planes};
 use crate::light::sampler::Scratch as LightWeights;
@@ -16,7 +16,7 @@ use crate::sensor::{CameraSensor, Looking, Scratch, Seen, Sensor, Tile, View};
 use crate::settings::{Masks, SettingValue, Settings};
 
 /// Rows of the longest table.
-const MOST: u64 = 1 << 20;
+const MOST: u64 = 1 << 16;
 
 /// A pixel with everything that makes it.
 #[derive(Clone, Debug)]
@@ -74,7 +74,7 @@ pub struct LightRay {
     pub point: Option<World>,
     /// Distance to it; +∞ at infinity.
     pub distance: f32,
-    /// cos θ at the receiver.
+    /// |cos θ| at the receiver; 1 for mirrors, whose f_r holds it.
     pub cos: f32,
     /// |cos θ′| at the light; 1 where it has no surface, NaN where it was found by a direction.
     pub cos_light: f32,
@@ -84,7 +84,7 @@ pub struct LightRay {
     pub brdf: Rgb,
     /// p(light) · p(ω_i) [1/sr]; for single directions p(light).
     pub pdf: f32,
-    /// Share against the other strategy, times what a mistake adds.
+    /// Share against the other strategy, times what a mistake adds and what an alpha mask covers.
     pub weight: f32,
     /// V; `None` = nothing was asked, because nothing could be carried.
     pub visible: Option<bool>,
@@ -221,7 +221,7 @@ impl Pixel<'_> {
     fn light_points(&self, at: &Receiver, out: &mut Vec<LightRay>) {
         let mut proposals = Proposals { beyond_lights: !self.settings.distance_test, ..Proposals::default() };
         let mut asked = Vec::new();
-        let mut list = |drawn: Drawn| {
+        let mut list = |at: &Receiver, drawn: Drawn| {
             out.push(point_row(at, &drawn));
             if let (Some(to), false) = (&drawn.to, drawn.carried.is_black()) {
                 proposals.segment(at, drawn.nth.j, to, plane_of(at), drawn.carried);
@@ -266,7 +266,7 @@ impl Pixel<'_> {
                 distance: hits.t[i] as f32,
                 point: met.map(|met| met.receiver.p),
                 blocker: self.object(prim),
-                ..direction_row(at, wi, onward)
+                ..self.direction_row(at, wi, onward)
             };
             for &(light, radiance) in &found {
                 let weight = match onward.found {
@@ -277,12 +277,39 @@ impl Pixel<'_> {
                     }
                 };
                 let brings = self.share((onward.throughput * radiance * weight).0.map(f64::from));
+                let weight = weight * empty.weight;
                 let (light, visible, blocker) = (Some(light), Some(true), None);
                 out.push(LightRay { light, radiance, weight, visible, blocker, brings, ..empty.clone() });
             }
             if found.is_empty() {
                 out.push(empty);
             }
+        }
+    }
+
+    /// A drawn direction that has found nothing yet.
+    fn direction_row(&self, at: &Receiver, wi: World, onward: &Onward) -> LightRay {
+        let local = at.to_local(wi);
+        let n = self.draws.count(at) as f32;
+        // Added up instead of averaged, each counts N times.
+        let weight = if self.settings.mistake == Mistake::NoCount { n } else { 1.0 };
+        let delta = onward.density.is_delta();
+        let brdf = if delta { onward.throughput * (n / weight) } else { at.bsdf.eval(at.wo, local) };
+        LightRay {
+            by_direction: true,
+            light: None,
+            wi,
+            point: None,
+            distance: f32::INFINITY,
+            cos: if delta { 1.0 } else { local.cos().abs() },
+            cos_light: f32::NAN,
+            radiance: Rgb::BLACK,
+            brdf,
+            pdf: onward.density.weight(),
+            weight,
+            visible: None,
+            blocker: None,
+            brings: [0.0; 3],
         }
     }
 
@@ -317,31 +344,10 @@ fn point_row(at: &Receiver, drawn: &Drawn) -> LightRay {
             End::Infinity => None,
         },
         distance: s.distance,
-        cos: at.to_local(s.wi).cos(),
+        cos: at.to_local(s.wi).cos().abs(),
         cos_light: s.cos,
         radiance: s.radiance,
         pdf: drawn.prob * s.density.weight(),
         ..nothing
-    }
-}
-
-/// A drawn direction that has found nothing yet.
-fn direction_row(at: &Receiver, wi: World, onward: &Onward) -> LightRay {
-    let local = at.to_local(wi);
-    LightRay {
-        by_direction: true,
-        light: None,
-        wi,
-        point: None,
-        distance: f32::INFINITY,
-        cos: local.cos(),
-        cos_light: f32::NAN,
-        radiance: Rgb::BLACK,
-        brdf: if onward.density.is_delta() { onward.throughput } else { at.bsdf.eval(at.wo, local) },
-        pdf: onward.density.weight(),
-        weight: 1.0,
-        visible: None,
-        blocker: None,
-        brings: [0.0; 3],
     }
 }

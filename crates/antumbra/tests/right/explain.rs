@@ -3,13 +3,14 @@
 use antumbra::estimator::{EstimatorKind, LightChoice, Mistake};
 use antumbra::light::{LightPoints, Point};
 use antumbra::math::{Rgb, Vec3};
-use antumbra::render::{Explained, explain};
-use antumbra::scene::Scene;
+use antumbra::render::{Explained, LightRay, explain};
+use antumbra::scene::{Material, Scene};
 use antumbra::sensor::Viewing;
 use antumbra::settings::Settings;
 
 use super::pictures::{look, small};
-use super::rooms;
+use super::scenes::parallelogram;
+use super::{glass, rooms};
 
 use EstimatorKind::{Area, Hemisphere, Mis};
 
@@ -27,6 +28,7 @@ fn the_sum_is_the_pixel() {
     let mut many = rooms::lit();
     many.light("point", Point { position: Vec3::new(0.5, 2.5, 0.5), intensity: Rgb::WHITE });
     let (many, sky) = (many.build().unwrap(), rooms::under_sky().build().unwrap());
+    let ground = glass::ground_glass().build().unwrap();
     let base = |kind| Settings {
         viewing: Viewing::Filter,
         viewing_rays: 5,
@@ -47,7 +49,7 @@ fn the_sum_is_the_pixel() {
         Settings { mistake: Mistake::CountedTwice, light: vec!["ceiling".into()], ..base(Mis) },
     ];
     let mut rows = 0;
-    for (name, scene) in [("room", &room), ("many", &many), ("sky", &sky)] {
+    for (name, scene) in [("room", &room), ("many", &many), ("sky", &sky), ("glass", &ground)] {
         for s in &ways {
             if name == "sky" && !s.light.is_empty() {
                 continue;
@@ -70,35 +72,52 @@ fn the_sum_is_the_pixel() {
     println!("{rows} rows");
 }
 
-/// Each row of light sampling: V · weight · L_e · f_r · cos θ / (pdf · N · viewing rays), cos θ′ and r² as the points say.
+/// Each row: V · weight · L_e · f_r · cos θ / (pdf · N · viewing rays), cos θ′ and r² as the points say; also through
+/// ground glass and in a mirror.
 #[test]
 fn every_row_is_its_formula() {
-    let scene = rooms::lit().build().unwrap();
-    let s = Settings { viewing_rays: 16, shadow_rays: 2, light_points: LightPoints::Area, ..small(Area) };
-    let (mut free, mut blocked) = (0, 0);
-    for pixel in PIXELS {
-        for ray in &taken(&scene, pixel, &s).viewing_rays {
-            let Some(met) = &ray.met else { continue };
-            assert!((ray.origin + ray.direction * met.distance as f32 - met.receiver.p).length() < 1e-5);
-            for row in ray.light_rays.iter().filter(|row| row.pdf > 0.0) {
-                let factor = row.weight * row.cos / (row.pdf * 32.0);
-                for (c, brings) in row.brings.iter().enumerate() {
-                    let v = if row.visible == Some(true) { 1.0 } else { 0.0 };
-                    let formula = f64::from(v * row.radiance.0[c] * row.brdf.0[c] * factor);
-                    // Half a dozen roundings of f32.
-                    assert!((brings - formula).abs() <= 1e-6 * formula, "{row:?}");
+    let mut glass = glass::ground_glass();
+    let mirror = glass.material(Material::mirror(Rgb::grey(0.9)));
+    glass.object("mirror", parallelogram(Vec3::new(-2.9, 0.5, -1.0), Vec3::Z * 2.0, Vec3::Y * 1.5), mirror);
+    let scenes = [rooms::lit().build().unwrap(), glass.build().unwrap()];
+    let base =
+        |kind| Settings { viewing_rays: 16, shadow_rays: 3, light_points: LightPoints::Area, ..small(kind) };
+    let ways =
+        [base(Area), base(Mis), base(Hemisphere), Settings { mistake: Mistake::NoCount, ..base(Hemisphere) }];
+    let (mut free, mut blocked, mut found) = (0, 0, 0);
+    for (scene, s) in scenes.iter().flat_map(|scene| ways.iter().map(move |s| (scene, s))) {
+        for pixel in (0..15).flat_map(|y| [[4, y], [9, y], [14, y]]) {
+            for ray in &taken(scene, pixel, s).viewing_rays {
+                let Some(met) = &ray.met else { continue };
+                for row in ray.light_rays.iter().filter(|row| row.pdf > 0.0) {
+                    check_row(row, 48.0);
+                    if row.by_direction {
+                        found += u32::from(row.light.is_some());
+                        continue;
+                    }
+                    assert_eq!(row.visible == Some(false), row.blocker.is_some(), "{row:?}");
+                    let Some(q) = row.point else { continue };
+                    // The end is lifted off the light by 2⁻²¹ of its coordinates.
+                    assert!(((q - met.receiver.p).length() / row.distance - 1.0).abs() < 1e-5, "{row:?}");
+                    free += u32::from(row.visible == Some(true));
+                    blocked += u32::from(row.visible == Some(false));
                 }
-                assert_eq!(row.visible == Some(false), row.blocker.is_some(), "{row:?}");
-                let Some(q) = row.point else { continue };
-                // The end is lifted off the light by 2⁻²¹ of its coordinates.
-                assert!(((q - met.receiver.p).length() / row.distance - 1.0).abs() < 1e-5, "{row:?}");
-                free += u32::from(row.visible == Some(true));
-                blocked += u32::from(row.visible == Some(false));
             }
         }
     }
-    println!("{free} free, {blocked} blocked");
-    assert!(free > 20 && blocked > 3);
+    println!("{free} free, {blocked} blocked, {found} found");
+    assert!(free > 1000 && blocked > 100 && found > 100);
+}
+
+fn check_row(row: &LightRay, samples: f32) {
+    let factor = row.weight * row.cos / (row.pdf * samples);
+    // Half a dozen roundings of f32; a drawn direction comes with f_r cos θ / pdf as one number, which rounds otherwise.
+    let slack = if row.by_direction { 1e-3 } else { 2e-6 };
+    for (c, brings) in row.brings.iter().enumerate() {
+        let v = if row.visible == Some(true) { 1.0 } else { 0.0 };
+        let formula = f64::from(v * row.radiance.0[c] * row.brdf.0[c] * factor);
+        assert!((brings - formula).abs() <= slack * formula, "{formula}: {row:?}");
+    }
 }
 
 /// What there is no table for is told, with what to do.

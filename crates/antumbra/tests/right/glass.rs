@@ -43,7 +43,7 @@ fn clear_glass_under_an_even_sky_cannot_be_seen() {
 }
 
 /// The lit room with a ball and a sheet of ground glass, and rough copper on a wall.
-fn ground_glass() -> SceneBuilder {
+pub(super) fn ground_glass() -> SceneBuilder {
     let mut room = rooms::lit();
     let glass = room.material(Material::dielectric(1.5, Some(Facets::isotropic(0.4))));
     let metal = Metal::named("Cu").unwrap();
