@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 from os import PathLike
 from pathlib import Path
@@ -14,7 +14,7 @@ import numpy as np
 
 from antumbra import __version__, settings
 from antumbra.errors import OptionError
-from antumbra.study import renders
+from antumbra.study import kinds, renders
 from antumbra.study.files import check_folder, finished_rows, keep, write
 from antumbra.study.plan import Plan, Variant
 from antumbra.study.renders import Step, Work
@@ -45,7 +45,7 @@ class Job:
         self.truths = list(dict.fromkeys(v.truth() for v in made.variants))
         self.given: Reference | None = None
         self.command = ""
-        self.by, self.rays = "", 0
+        self.by, self.rays, self.chooses = "", 0, False
         self.warnings: list[tuple[str, str, str]] = []
         first = made.variants[0]
         width, height = self.work.scene(first.parameters)._core.picture_size(list(first.words.items()))
@@ -55,22 +55,43 @@ class Job:
         """Finds out what the reference is to be, and whether it fits."""
         by = given if isinstance(given, str) and not is_file(given) else ""
         if given is None:
-            by = renders.other_kind(self.plan)
+            by = kinds.any_other(self.plan)
         if error is not None and (given is None or by):
             raise OptionError("standard errors of a reference belong to one that is a file")
         if by:
             settings.words({"estimator": by})
         renders.check_shows(self.plan, by)
         if by:
-            self.by, self.rays = by, rays or 0
+            self.by, self.rays, self.chooses = by, rays or 0, given is None
+            if self.chooses:
+                return
             if by in renders.estimators(self.plan):
                 self._warn(
                     f"the reference is of the same kind as a variant ({by}): an error of both does not show"
                 )
+            else:
+                self._warn_of_parts({})
         elif given is not None:
             self.given = self._picture(given, error)
         else:
             self._warn("there is no estimator of another kind: no reference, only the variance is measured")
+
+    def _choose_reference(self) -> None:
+        """Of the estimators that share no part with the variants, if pilots find none wrong with one."""
+        self.by, refused = kinds.chosen(self.plan, self.work, self.rays)
+        self._warn_of_parts(refused)
+
+    def _warn_of_parts(self, refused: Mapping[str, str]) -> None:
+        common = kinds.shared(self.by, self.plan)
+        if not common:
+            return
+        why = "; ".join(f"{kind} {reason}" for kind, reason in refused.items())
+        what = (
+            f"the reference, {self.by}, has parts in common with {' and '.join(common)}:"
+            f" an error in those does not show{f'; of those without, {why}' if why else ''}"
+        )
+        # Of all light there is no estimator that shares nothing.
+        self.warnings.append(("warning" if kinds.apart(self.plan) else "note", "", what))
 
     def _warn(self, what: str) -> None:
         self.warnings.append(("warning", "", what))
@@ -97,6 +118,8 @@ class Job:
         rows: list[Row] = []
         try:
             self.plan = renders.within_budget(self.plan, self.work)
+            if self.chooses:
+                self._choose_reference()
             found = [] if folder is None else finished_rows(folder, self.fingerprint())
             kept = {key_of(row): row for row in found}
             for row in self._rows(kept):

@@ -181,15 +181,6 @@ def reference_name(estimator: str, viewing_rays: str) -> str:
     return f"{estimator}, {REFERENCE_SEEDS} seeds of {int(viewing_rays):,} viewing rays"
 
 
-def other_kind(plan: Plan) -> str:
-    """An estimator of the same light that the plan does not vary; nothing if there is none."""
-    used, shown = estimators(plan), {v.shows for v in plan.variants}
-    if shown == {"ambient occlusion"}:
-        return ""
-    kinds = ("mis", "area", "hemisphere", "surfaces") if shown == {"direct"} else ALL_LIGHT
-    return next((kind for kind in kinds if kind not in used), "")
-
-
 def estimators(plan: Plan) -> set[str]:
     """The estimators of the variants."""
     default = settings.table()["estimator"].default
@@ -212,9 +203,14 @@ def check_shows(plan: Plan, estimator: str) -> None:
         )
 
 
+def words_of(variant: Variant, words: Mapping[str, str]) -> dict[str, str]:
+    """Settings of the reference of one truth: the reference's own, and what decides what this variant shows."""
+    return {**words, **{k: v for k, v in variant.words.items() if k not in METHOD}}
+
+
 def reference_by(variant: Variant, words: Mapping[str, str], work: Work) -> Reference:
     """Renders the reference of a variant's truth."""
-    own = {**words, **{k: v for k, v in variant.words.items() if k not in METHOD}}
+    own = words_of(variant, words)
     pictures = []
     for k in range(REFERENCE_SEEDS):
         what = f"reference, seed {k + 1} of {REFERENCE_SEEDS}"
