@@ -42,6 +42,11 @@ def _pillars(key: str, **options: object) -> Variant:
     return Variant(key, builtin("pillars"), _PILLARS | options)
 
 
+def _between(key: str, **options: object) -> Variant:
+    look = {"size": _SIZE, "estimator": "area", "viewing_rays": Pick(4, 16), "shadow_rays": 4}
+    return Variant(key, builtin("plane-and-cylinder"), look | options)
+
+
 CHAPTERS = (
     Chapter(
         number=1,
@@ -86,14 +91,14 @@ CHAPTERS = (
         ),
         pictures=(
             (
-                _pillars("self", self_intersection="none", sampler="random"),
-                "Shadow rays that start at the rounded point: the floor shadows itself in patches.",
-                "ends counted",
+                _between("off", distance_test="off"),
+                "A light between a plane and a cylinder, rays that do not end at it: dark where they meet the cylinder.",
+                "anything on the ray",
             ),
             (
-                _pillars("right"),
-                "The same picture with the ends left out: clean shadows.",
-                "strictly between",
+                _between("on"),
+                "The same light, segments that end at it: plane and cylinder are lit.",
+                "anything between",
             ),
         ),
     ),

@@ -185,10 +185,10 @@ def examine(figure: Figure, run: Run) -> dict[str, Any]:
 
 
 def open_chapter(chapter: Chapter, run: Run) -> dict[str, Any]:
-    """Renders the pictures that open a chapter, exposed alike."""
+    """Renders the pictures that open a chapter, all exposed as the last one is."""
     variants = [variant for variant, _, _ in chapter.pictures]
     run.render(variants)
-    white = run.white(*(variant.key for variant in variants))
+    white = run.white(variants[-1].key)
     stage: list[Picture] = [
         run.picture(variant.key, alt, caption, white=white) for variant, alt, caption in chapter.pictures
     ]
