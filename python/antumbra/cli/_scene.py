@@ -9,6 +9,7 @@ import click
 from antumbra import _core
 from antumbra.cli import _say
 from antumbra.cli._command import Option
+from antumbra.errors import SceneError
 
 
 def options() -> list[Option]:
@@ -31,7 +32,13 @@ def open_scene(
     if Path(scene).exists() or "." in scene or "/" in scene:
         if given:
             raise click.UsageError(f"-D {definitions[0]}: {scene} has no parameters")
-        return _core.Scene.load(scene, up_axis, files_from, keep=False)
+        try:
+            return _core.Scene.load(scene, up_axis, files_from, keep=False)
+        except SceneError as problem:
+            if scene in (name for name, _, _ in _core.builtins()):
+                here = f'What lies here under this name hides the built-in scene "{scene}": go to another folder.'
+                problem.hint = f"{problem.hint}\n{here}".strip()
+            raise
     for option, value in (("--up-axis", up_axis), ("--files-from", files_from)):
         if value is not None:
             raise click.UsageError(f'{option} is for files: "{scene}" is a built-in scene')

@@ -34,7 +34,7 @@ def luminance(pixels: ArrayLike) -> NDArray[np.float64]:
     return x if x.ndim == 2 else x @ np.array([0.2126, 0.7152, 0.0722])
 
 
-def tones_png(pixels: ArrayLike, white: float, tones: int = 64) -> bytes:
+def tones_png(pixels: ArrayLike, white: float, tones: int = 128) -> bytes:
     """A scene of one colour: its luminance in `tones` steps of the warm ramp."""
     return ramp_png(exposed(luminance(pixels), white), "warm", tones=tones)
 
@@ -50,7 +50,7 @@ def colour_png(pixels: ArrayLike, white: float, tones: int = 128) -> bytes:
     return _png(picture)
 
 
-def ramp_png(values: ArrayLike, ramp: str, low: float = 0.0, high: float = 1.0, tones: int = 64) -> bytes:
+def ramp_png(values: ArrayLike, ramp: str, low: float = 0.0, high: float = 1.0, tones: int = 128) -> bytes:
     """A map of numbers (H, W): `low` to `high` along a ramp of `RAMPS`; NaN is low."""
     share = np.nan_to_num((np.asarray(values, np.float64) - low) / (high - low))
     steps = np.round(np.clip(share, 0.0, 1.0) * (tones - 1)).astype(np.uint8)

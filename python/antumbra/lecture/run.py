@@ -123,7 +123,7 @@ class Run:
         name: str = "",
         white: float = 0.0,
         colour: bool = False,
-        tones: int = 64,
+        tones: int = 128,
         noise: bool = False,
     ) -> Picture:
         """A variant (by key), or radiance (H, W, 3) or (H, W), as a picture of the page.

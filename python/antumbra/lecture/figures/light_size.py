@@ -63,17 +63,18 @@ def _all_squares(run: Run) -> dict[str, NDArray[np.float64]]:
 
 def _measure(run: Run) -> Mapping[str, Quantity]:
     squares = _all_squares(run)
-    at = SIZES.index(1.0)
-    penumbra = statistics.root(statistics.mean(squares["penumbra"][:, at]))
-    small = slice(0, at + 1)
+    noise = {
+        (n, s): statistics.root(statistics.mean(squares[n][:, SIZES.index(s)]))
+        for n in squares
+        for s in (1.0, 2.0)
+    }
+    small = slice(0, SIZES.index(1.0) + 1)
     return {
         "lit": of_interval(statistics.slope(SIZES[small], np.sqrt(squares["lit"][:, small]))),
-        "penumbra": of_interval(statistics.slope(SIZES, np.sqrt(squares["penumbra"]))),
-        "one": of_interval(penumbra),
-        "lit-one": of_interval(statistics.root(statistics.mean(squares["lit"][:, at]))),
-        "times": of_interval(
-            statistics.ratio(penumbra, statistics.root(statistics.mean(squares["lit"][:, at])))
-        ),
+        "doubled": of_interval(statistics.ratio(noise["penumbra", 2.0], noise["penumbra", 1.0])),
+        "lit-doubled": of_interval(statistics.ratio(noise["lit", 2.0], noise["lit", 1.0])),
+        "one": of_interval(noise["penumbra", 1.0]),
+        "lit-one": of_interval(noise["lit", 1.0]),
     }
 
 
@@ -93,16 +94,15 @@ def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
         frames.append(Frame(f"{size:g}", says, pictures, short=f"{size:g} m"))
     labels = ("one shadow ray", "many", "noise of one")
     curves = [
-        measured(name, SIZES, squares[name], fit=[name != "lit" or s <= 1 for s in SIZES]) for name in squares
+        measured(name, SIZES, squares[name], fit=[name == "lit" and s <= 1 for s in SIZES])
+        for name in squares
     ]
     svg = error_curves(
         curves, x_title="edge of the light [m], its power constant", y_title="noise of one ray, unshadowed light = 1",
         chosen="penumbra", x_ticks=[0.25, 0.5, 1, 2, 4], y_ticks=[1, 1 / 3, 1 / 10, 1 / 30, 1 / 100],
         label="Noise of one shadow ray against the size of the light: lit pixels and penumbra pixels.",
     )  # fmt: skip
-    note = (
-        f"Bars and bands: 95 %, {len(run.images('one-1.0'))} independent pictures. Hollow: shown, not fitted."
-    )
+    note = f"Bars: 95 %, {len(run.images('one-1.0'))} independent pictures. The line is fitted to lit pixels up to 1 m."
     return [
         Strip("size", "Edge of the square light, at constant power", frames, SIZES.index(1.0), labels),
         Plot(svg, note),
@@ -116,13 +116,13 @@ FIGURE = Figure(
     variants=[Variant(f"{kind}-{s}", builtin("pillars", light_size=s), options, count)
               for s in SIZES for kind, options, count in (("one", ONE, Pick(16, 48)), ("truth", TRUTH, 1))],
     measure=_measure, stage=_stage, exr=["one-1.0"],
-    answer=Number("times", "So much noisier is the penumbra than the lit floor, under a light of 1 m. In the penumbra the slope over the size "
-        "is {penumbra:1}; in the light it is {lit:1}.", before="× "),
+    answer=Number("doubled", "So many times as noisy is a penumbra pixel under 2 m as under 1 m, and {lit-doubled:1} times a fully lit one. The penumbra "
+        "only grows wider.", before="× "),
     equation=Equation([SUM], "Marked: one shadow ray. In the penumbra V jumps between 0 and 1, whatever the size; in the light only the "
         "cosines and r vary, and the less the smaller the light."),
     claims=[
         Claim("Fully lit: the noise grows with the edge of the light.", "lit", near=1.0, within=0.05, main=True, measured="slope {lit}, edges up to 1 m"),
-        Claim("In the penumbra it hardly depends on the size.", "penumbra", below=0.2, measured="slope {penumbra}"),
-        Claim("Under a light of 1 m it is nearly that of a fair coin, 1/2.", "one", near=0.4, within=0.1, measured="{one} of the unshadowed light"),
+        Claim("In the penumbra a light twice as large changes little.", "doubled", near=1.0, within=0.2, measured="× {doubled} from 1 to 2 m"),
+        Claim("There it is less than that of a fair coin, 1/2, and more than 1/3.", "one", near=5 / 12, within=1 / 12, measured="{one} of the unshadowed light"),
     ],
 )  # fmt: skip

@@ -17,7 +17,7 @@ from antumbra.lecture.stages import Panel, Part, Row, Table, Tabs
 from antumbra.study import statistics
 
 NAMES = {
-    "light": "which light", "visibility": "visibility", "geometry": "geometry", "interaction": "both",
+    "light": "which light", "visibility": "visibility", "geometry": "geometry", "interaction": "V with g",
     "covariances": "covariances", "place": "pixel",
 }  # fmt: skip
 SIZE, VIEW = Pick((60, 42), (240, 168)), {"eye": (-7.4, 5.6, 5.4), "look_at": (0.3, 0.55, 0.3), "fov": 0.5}
@@ -92,16 +92,17 @@ FIGURE = Figure(
     answer=Number("light", "So much of the variance is the choice of the window. Visibility makes {visibility:1}, geometry {geometry:1}: "
         "ask both windows first."),
     equation=Equation(
-        [(r"\text{Var}(V g) = \mark{\bar{g}^2 \, \text{Var} V + \bar{v}^2 \, \text{Var} g + \text{Var}\big((V - \bar{v})(g - \bar{g})\big) + 2 \textstyle\sum \text{Cov}}",
+        [(r"\text{Var} X = \overline{\text{Var}(V g)} + \mark{\text{Var} \, \bar{x}_{\text{light}}} + \text{Var} \, \bar{x}_{\text{pixel}}",
+          "Var X = mean of Var(V g) + variance of the means of the lights + variance of the means of the places in the pixel"),
+         (r"\text{Var}(V g) = \bar{g}^2 \, \text{Var} V + \bar{v}^2 \, \text{Var} g + \text{Var}\big((V - \bar{v})(g - \bar{g})\big) + 2 \textstyle\sum \text{Cov}",
           "Var(V g) = ḡ² Var V + v̄² Var g + Var((V − v̄)(g − ḡ)) + 2 · the sum of the covariances")],
-        "Marked: V and g = f L cos θ cos θ′ / (r² pdf) hang on the same point of the light. The choice of the light and the place in the "
-        "pixel are added by the law of total variance.",
+        "Marked: the choice of the light. V and g = f L cos θ cos θ′ / (r² pdf) hang on the same point, so their product splits in four.",
     ),
     claims=[
         Claim("The parts add up to the variance of the rendered picture.", "adds", near=1.0, within=0.05, main=True,
               measured="rendered / sum of the parts: {adds}"),
         Claim("A half-hidden disk has the variance of the closed form.", "half", near=0.8224670334, within=0.02,
               measured="{half}; the closed form says 0.8225"),
-        Claim("Three quarters of that are visibility.", "seen", near=0.75 * 0.8224670334, within=0.02, measured="{seen} of {half:v}"),
+        Claim("Three quarters of that disk's variance are visibility.", "seen", near=0.75 * 0.8224670334, within=0.02, measured="{seen} of {half:v}"),
     ],
 )  # fmt: skip

@@ -47,10 +47,8 @@ def _stage(run: Run, measured: Mapping[str, Quantity]) -> list[Strip]:
             run.pixels(key),
         )
         product, white = seen[..., None] * light, float(light.max())
-        off = np.where(product > 0.02 * white, true / np.maximum(product, 1e-9) - 1, 0.0).mean(2)
-        span = f"{100 * np.quantile(off, 0.01):+.0f} to {100 * np.quantile(off, 0.99):+.0f} %".replace(
-            "-", "−"
-        )
+        off = np.where(product > 0.1 * white, true / np.maximum(product, 1e-9) - 1, 0.0).mean(2)
+        span = f"{100 * off.min():+.0f} to {100 * off.max():+.0f} %".replace("-", "−")
         pictures = [
             run.map(seen, f"Visible fraction, from {seen.min():.2f} to 1.", name=f"{key}-seen"),
             run.picture(light, "Unshadowed light, brightest in the middle.", name=f"{key}-light", white=white),

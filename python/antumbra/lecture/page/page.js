@@ -46,5 +46,7 @@ addEventListener('keydown',e=>{if(!st.slides||e.altKey||e.ctrlKey||e.metaKey)ret
  if(k=='Escape')slides(false);else if((k==' '||k=='PageDown')&&!T.matches('button'))next();else if(k=='PageUp'){st.step?go(cur(),st.step-1):cur()&&go(cur()-1,2)}else if(k=='ArrowRight'&&!own)go(cur()+1);else if(k=='ArrowLeft'&&!own)go(cur()-1);else return;e.preventDefault()});
 const apply=()=>{const at=read(),k=st.kv;ctl.forEach(([f,c,to])=>to(f==st.fig?k[c]:undefined));if(k.answers)answers(true);st.step=Math.min(2,Math.max(0,+k.step||0));if(st.slides&&!st.fig&&figs.length)st.fig=figs[0].id;show();const to=D.getElementById(st.fig||at);if(to&&!st.slides)to.scrollIntoView()};
 addEventListener('hashchange',apply);apply();
+// equations that do not fit get smaller
+const fit=()=>$$('.eq').forEach(e=>{const m=$('math',e);if(!m)return;m.style.fontSize='';const r=e.clientWidth/e.scrollWidth;if(r<1)m.style.fontSize=Math.max(50,98*r|0)+'%'});addEventListener('resize',fit);fit();
 const nv=$$('.bar nav a'),io=new IntersectionObserver(es=>es.forEach(e=>{if(e.isIntersecting)nv.forEach(a=>{const on=a.hash=='#'+e.target.dataset.ch;a.classList.toggle('on',on);on?a.setAttribute('aria-current','true'):a.removeAttribute('aria-current')})}),{rootMargin:'-20% 0px -70%'});$$('[data-ch]').forEach(s=>io.observe(s));
 })();
