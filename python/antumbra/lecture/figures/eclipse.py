@@ -37,13 +37,13 @@ FAR, GROUND, EYE = DISTANCES[-1], 160.0, 20_000.0
 LOOK = {
     "estimator": "area",
     "viewing_rays": Pick(4, 16),
-    "shadow_rays": Pick(9, 16),
+    "shadow_rays": Pick(9, 8),
     "size": Pick((120, 120), (320, 320)),
 }
 ONE = {"viewing": "centre", "viewing_rays": 1, "shadow_rays": 1}
 VIEWS = {
     "space": {},
-    "ground": ONE | {"aov": "regions", "region_points": Pick(64, 128), "eye": (EYE, 0.0, 0.0), "look_at": (0.0, 0.0, 0.0),
+    "ground": ONE | {"aov": "regions", "region_points": 64, "eye": (EYE, 0.0, 0.0), "look_at": (0.0, 0.0, 0.0),
                      "fov": 2 * np.arctan(GROUND / (EYE - SKY.earth))},
     "sky": ONE | {"aov": "emission,albedo", "eye": (SKY.earth + 0.002, 0.0, 0.0), "look_at": (1e6, 0.0, 0.0), "fov": 0.0124},
 }  # fmt: skip
@@ -124,7 +124,7 @@ def _stage(run: Run, measured: Mapping[str, Quantity]) -> list[Part]:
 
 
 FIGURE = Figure(
-    number=3, chapter=1, title="Total or annular", seconds=Pick(6, 100),
+    number=3, chapter=1, title="Total or annular", seconds=Pick(6, 110),
     question=Question(
         "The moon's distance goes from 356,500 to 406,700 km. From which distance on does a ring of the sun stay visible?",
         ("370,000 km", "380,000 km", "400,000 km"), 1,

@@ -19,8 +19,8 @@ from antumbra.lecture.stages.regions import regions_key, side_view
 DISKS, HALF = Disks(R=1.0, r=0.5, a=4.0), 4.0
 DISTANCES = [0.5 * step for step in range(1, 17)]
 LOOK = {
-    "estimator": "area", "viewing": "centre", "viewing_rays": 1, "shadow_rays": Pick(36, 144), "sampler": "stratified",
-    "aov": "regions,unshadowed-direct", "region_points": Pick(32, 128), "size": Pick((120, 120), (320, 320)),
+    "estimator": "area", "viewing": "centre", "viewing_rays": 1, "shadow_rays": Pick(36, 100), "sampler": "stratified",
+    "aov": "regions,unshadowed-direct", "region_points": Pick(32, 64), "size": Pick((120, 120), (320, 320)),
 }  # fmt: skip
 
 
@@ -80,7 +80,7 @@ def _stage(run: Run, measured: Mapping[str, Quantity]) -> list[Part]:
 
 
 FIGURE = Figure(
-    number=2, chapter=1, title="Where the umbra ends", seconds=Pick(5, 90),
+    number=2, chapter=1, title="Where the umbra ends", seconds=Pick(5, 110),
     question=Question(
         "Move the receiver away from the occluder. How far behind it does the dark core vanish, and what is there afterwards?",
         ("g = 2, then only penumbra", "g = 4, then a ring of light", "never: it only shrinks"), 1,
