@@ -1,5 +1,7 @@
 //! Builder → scene: all checking happens here, once.
 
+use std::collections::HashMap;
+
 use antumbra_math::{Transform, Vec3};
 use antumbra_trace::{Pool, Shape, Triangles};
 
@@ -148,23 +150,40 @@ impl SceneBuilder {
         Ok(())
     }
 
-    /// Meshes under a normal map or with facets of two widths get tangents if they bring none.
+    /// Meshes under a normal map or with facets of two widths get tangents if they bring none; a mesh that objects look at
+    /// through different texture coordinates becomes one for each.
     fn make_tangents(&mut self) {
-        for object in &self.objects {
+        // The mesh of the file and how its tangents are made, then the mesh that has them.
+        let mut made: HashMap<(u32, usize, bool), u32> = HashMap::new();
+        let bare: Vec<bool> = self.meshes.iter().map(|mesh| mesh.tangents.is_none()).collect();
+        for object in &mut self.objects {
             let Body::Mesh(m) = object.body else { continue };
             let material = &self.materials[object.material as usize];
             let map = material.normal.map(|map| &self.textures[map.texture as usize]);
-            let mesh = &mut self.meshes[m as usize];
-            if mesh.tangents.is_some() || (map.is_none() && !material.surface.is_stretched()) {
+            if !bare[m as usize] || (map.is_none() && !material.surface.is_stretched()) {
                 continue;
             }
             // A map that turns v round (OBJ) makes it grow upwards on the mesh.
             let turns = |t: &Texture| t.map[0] * t.map[4] - t.map[1] * t.map[3] < 0.0;
             let set = map.map_or(0, |map| map.uv_set as usize);
-            mesh.tangents = Tangents::made(mesh, set, !map.is_some_and(turns));
-            if mesh.tangents.is_none() && map.is_some() {
+            let way = (m, set, !map.is_some_and(turns));
+            if let Some(of) = made.get(&way) {
+                object.body = Body::Mesh(*of);
+                continue;
+            }
+            let said = match Tangents::made(&self.meshes[m as usize], set, way.2) {
+                Some((tangents, said)) => {
+                    let of = with_tangents(&mut self.meshes, m, tangents);
+                    made.insert(way, of);
+                    object.body = Body::Mesh(of);
+                    said
+                }
+                None => {
+                    map.map(|_| "has a normal map and no texture coordinates: drawn without it".to_string())
+                }
+            };
+            if let Some(text) = said {
                 let place = format!("object \"{}\"", object.name);
-                let text = "has a normal map and no texture coordinates: drawn without it".to_string();
                 self.messages.push(Message { level: Level::Warning, place, text });
             }
         }
@@ -228,6 +247,18 @@ impl SceneBuilder {
         }
         uses
     }
+}
+
+/// Gives mesh `m` tangents, or a copy of it if it has others; the mesh that has them.
+fn with_tangents(meshes: &mut Vec<Mesh>, m: u32, tangents: Tangents) -> u32 {
+    let mesh = &mut meshes[m as usize];
+    if mesh.tangents.is_none() {
+        mesh.tangents = Some(tangents);
+        return m;
+    }
+    let copy = Mesh { tangents: Some(tangents), ..mesh.clone() };
+    meshes.push(copy);
+    meshes.len() as u32 - 1
 }
 
 fn material_place(i: usize, m: &Material) -> String {

@@ -60,6 +60,37 @@ fn maps_turn_with_their_surface() {
     }
 }
 
+/// Two objects of one mesh whose maps follow different texture coordinates: each is lit by its own, in any order.
+#[test]
+fn one_mesh_under_two_texture_coordinates() {
+    let right = Image::new(1, 1, Texels::Float(vec![[0.8, 0.5, 0.9]])).unwrap();
+    let right = Texture::new(Arc::new(right));
+    for first in [0, 1] {
+        let mut builder = SceneBuilder::new("two sets");
+        let triangles = parallelogram(Vec3::new(-1.0, -1.0, 0.0), Vec3::X * 2.0, Vec3::Y * 2.0);
+        // u along +x; u along +y with the top of the picture at −x.
+        let along_x = vec![[0.0, 1.0], [1.0, 1.0], [1.0, 0.0], [0.0, 0.0]];
+        let along_y = vec![[0.0, 0.0], [0.0, 1.0], [1.0, 1.0], [1.0, 0.0]];
+        let mesh = builder.mesh(Mesh { triangles, uvs: [Some(along_x), Some(along_y)], ..Mesh::default() });
+        for (nth, uv_set) in [first, 1 - first].into_iter().enumerate() {
+            let texture = builder.texture(Texture { uv_set, ..right.clone() });
+            let map = Some(NormalMap { texture, scale: 1.0 });
+            let material = builder.material(Material { normal: map, ..Material::diffuse(Rgb::grey(0.5)) });
+            let translation = DVec3::X * 100.0 * (1 - nth) as f64;
+            builder.place("square", mesh, material, Transform { linear: DMat3::IDENTITY, translation });
+        }
+        builder.light("sky", Environment::constant(Rgb::WHITE));
+        builder.cameras.push(Camera::perspective(DVec3::new(0.0, 0.0, 5.0), DVec3::ZERO, 5.0));
+        let scene = builder.build().unwrap();
+        let settings = Settings { aov: Planes::NORMAL, viewing_rays: 1, ..small(EstimatorKind::Area) };
+        let picture = look(&scene, &settings);
+        let values = plane(&picture, "normal");
+        let expected = if first == 1 { Vec3::new(0.6, 0.0, 0.8) } else { Vec3::new(0.0, 0.6, 0.8) };
+        let found = Vec3::new(values[0], values[1], values[2]);
+        assert!((found - expected).length() < 1e-5, "{found} for {expected}");
+    }
+}
+
 #[test]
 fn clay_has_no_map() {
     assert_eq!(seen([0.6, 0.0, 0.8], DMat3::IDENTITY, Some(0.8)), Vec3::Z);
