@@ -127,13 +127,18 @@ pub fn illuminate(
     Some(counts)
 }
 
-/// Samples per receiver times receivers that are proposed at once: bounds what the buffers take.
+/// Segments and rays that are proposed at once, or those of one receiver if they are more: bounds what the buffers take.
 const BATCH: usize = 1 << 16;
 
-/// Runs of receivers that fit a batch.
-fn runs<'a>(receivers: &'a [Receiver], draws: &Draws<'_>) -> impl Iterator<Item = &'a [Receiver]> {
+/// Runs of receivers of which `estimator` makes no more than a batch.
+fn runs<'a>(
+    receivers: &'a [Receiver],
+    draws: &Draws<'_>,
+    scene: &Scene,
+    estimator: &dyn Estimator,
+) -> impl Iterator<Item = &'a [Receiver]> + use<'a> {
     let samples = receivers.first().map_or(1, |at| draws.count(at)) as usize;
-    receivers.chunks((BATCH / samples).max(1))
+    receivers.chunks((BATCH / estimator.most_proposed(scene, samples).max(1)).max(1))
 }
 
 /// One step of the loop: the receivers propose, visibility answers, the film sums, the rays make the next receivers.
@@ -147,7 +152,7 @@ fn bounce(
 ) -> Option<()> {
     let receivers = std::mem::take(&mut b.receivers);
     b.next.clear();
-    for run in runs(&receivers, draws) {
+    for run in runs(&receivers, draws, job.scene, job.estimator) {
         if stopped() {
             return None;
         }
@@ -179,15 +184,17 @@ fn free<'b>(job: &Job<'_>, b: &'b mut Buffers, counts: &mut Counts) -> impl Iter
 /// The planes about the lights.
 fn light_planes(job: &Job<'_>, draws: &Draws<'_>, film: &mut Film, b: &mut Buffers, counts: &mut Counts) {
     let receivers = std::mem::take(&mut b.receivers);
-    for run in runs(&receivers, draws) {
-        if let Some(area) = &job.light_planes.unshadowed {
+    if let Some(area) = &job.light_planes.unshadowed {
+        for run in runs(&receivers, draws, job.scene, area) {
             b.proposals.clear();
             area.propose(job.scene, run, draws, &mut b.proposals);
             for carried in &b.proposals.carried {
                 film.add(Planes::UNSHADOWED, carried.cell, carried.light);
             }
         }
-        if let Some(visible) = &job.light_planes.visible {
+    }
+    if let Some(visible) = &job.light_planes.visible {
+        for run in runs(&receivers, draws, job.scene, visible) {
             b.proposals.clear();
             visible.propose(job.scene, run, draws, &mut b.proposals);
             for carried in free(job, b, counts) {

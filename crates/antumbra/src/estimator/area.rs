@@ -25,6 +25,10 @@ impl Estimator for Area {
         }
     }
 
+    fn most_proposed(&self, scene: &Scene, n: usize) -> usize {
+        self.lights.most_proposed(scene, n)
+    }
+
     fn each_point(
         &self,
         scene: &Scene,

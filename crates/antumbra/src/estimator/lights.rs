@@ -97,6 +97,12 @@ impl Lights {
         out.light_weights = weights;
     }
 
+    /// The most segments of `propose` for a receiver that takes `n` samples: through glass as many from its other side.
+    pub fn most_proposed(&self, scene: &Scene, n: usize) -> usize {
+        let asked = if self.sampler.is_some() { 1 } else { scene.lights().len() };
+        n.saturating_mul(2 * asked)
+    }
+
     /// Draws the N points (of each light) that `propose` draws, in its order: from the receiver, then from behind it.
     #[inline]
     pub fn each(

@@ -10,7 +10,7 @@ use crate::scene::Scene;
 
 /// Light points and directions, weighed.
 pub struct Mis {
-    lights: Lights,
+    pub(super) lights: Lights,
     directions: Directions,
     mistake: Mistake,
 }
@@ -75,6 +75,10 @@ impl Estimator for Mis {
         for (from, at) in at.iter().enumerate() {
             self.propose_at(scene, (from, at), u, u.count(at), None, out);
         }
+    }
+
+    fn most_proposed(&self, scene: &Scene, n: usize) -> usize {
+        self.lights.most_proposed(scene, n).saturating_add(n)
     }
 
     fn each_point(

@@ -158,6 +158,11 @@ pub trait Estimator: Sync {
     /// Segments that carry light if they are free; rays that carry throughput onward.
     fn propose(&self, scene: &Scene, at: &[Receiver], u: &Draws<'_>, out: &mut Proposals);
 
+    /// The most segments and rays together that `propose` makes for one receiver that takes `n` samples.
+    fn most_proposed(&self, _scene: &Scene, n: usize) -> usize {
+        n
+    }
+
     /// The light points that `propose` draws for one receiver, in its order, with every factor (what `explain` shows);
     /// each with the receiver it leaves, on the one or the other side of the surface.
     fn each_point(

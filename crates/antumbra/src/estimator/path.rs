@@ -53,6 +53,10 @@ impl Estimator for Path {
         }
     }
 
+    fn most_proposed(&self, scene: &Scene, n: usize) -> usize {
+        self.mis.lights.most_proposed(scene, n).saturating_add(1)
+    }
+
     fn found_weight(&self, scene: &Scene, found: &FoundLight<'_>, scratch: &mut Scratch) -> f32 {
         let rays = if found.from.bounce == 0 { self.shadow_rays as f32 } else { 1.0 };
         self.mis.weight(scene, found, rays, scratch)

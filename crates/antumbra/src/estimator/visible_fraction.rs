@@ -29,6 +29,11 @@ impl VisibleFraction {
         VisibleFraction { of: None }
     }
 
+    /// How many lights are asked.
+    fn asked(&self, scene: &Scene) -> u32 {
+        if self.of.is_some() { 1 } else { (scene.lights().len() as u32).min(MOST_ASKED) }
+    }
+
     fn toward(
         &self,
         scene: &Scene,
@@ -59,9 +64,12 @@ impl VisibleFraction {
 }
 
 impl Estimator for VisibleFraction {
+    fn most_proposed(&self, scene: &Scene, n: usize) -> usize {
+        n.saturating_mul(self.asked(scene) as usize)
+    }
+
     fn propose(&self, scene: &Scene, at: &[Receiver], u: &Draws<'_>, out: &mut Proposals) {
-        let lights = scene.lights().len() as u32;
-        let asked = if self.of.is_some() { 1 } else { lights.min(MOST_ASKED) };
+        let asked = self.asked(scene);
         for at in at {
             for k in 0..asked {
                 self.toward(scene, at, u, (k, asked), out);
