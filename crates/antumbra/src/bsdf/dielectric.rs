@@ -70,7 +70,7 @@ impl BsdfKind for Dielectric {
     }
 
     fn albedo(&self) -> Rgb {
-        let mean = fresnel::average(|mu| Rgb::grey(fresnel::dielectric(mu, self.eta).reflected));
+        let mean = Rgb::grey(fresnel::average_of(self.eta, |mu| fresnel::dielectric(mu, self.eta).reflected));
         self.reflectance * mean + self.transmittance * (Rgb::WHITE - mean)
     }
 

@@ -47,6 +47,12 @@ impl Facets {
         self.alpha
     }
 
+    /// The two widths differ.
+    #[inline]
+    pub fn is_stretched(self) -> bool {
+        self.alpha[0] != self.alpha[1]
+    }
+
     /// D(m) of the direction of `v`, any length. GGX: (|v|² / (v_x²/α_x² + v_y²/α_y² + v_z²))² / (π α_x α_y). Beckmann:
     /// (|v|²/v_z²)² exp(−(v_x²/α_x² + v_y²/α_y²)/v_z²) / (π α_x α_y).
     #[inline]

@@ -61,6 +61,10 @@ pub trait BsdfKind {
     fn is_delta(&self) -> bool {
         false
     }
+    /// A part of its light, or all, leaves into single directions: those of light sampling or of other densities miss it.
+    fn has_single_directions(&self) -> bool {
+        self.is_delta()
+    }
     /// n below the surface over n above it, for kinds that let light through; `None` for those that are black from below.
     fn index_below(&self) -> Option<f32> {
         None
@@ -104,6 +108,11 @@ macro_rules! kinds {
             #[inline]
             pub fn is_delta(&self) -> bool {
                 match self { $(Bsdf::$kind(b) => b.is_delta()),* }
+            }
+            /// See [`BsdfKind::has_single_directions`].
+            #[inline]
+            pub fn has_single_directions(&self) -> bool {
+                match self { $(Bsdf::$kind(b) => b.has_single_directions()),* }
             }
             /// See [`BsdfKind::index_below`].
             #[inline]

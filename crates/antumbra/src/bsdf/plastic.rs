@@ -20,7 +20,7 @@ impl Coat {
     /// n of the coat over n outside, taken into [0.1, 10]; `nonlinear`: the colour deepens with each inner bounce.
     pub fn new(eta: f32, nonlinear: bool) -> Coat {
         let eta = fresnel::index(eta);
-        let mean = fresnel::average(|mu| Rgb::grey(fresnel::dielectric(mu, eta).reflected)).0[0];
+        let mean = fresnel::average_of(eta, |mu| fresnel::dielectric(mu, eta).reflected);
         Coat { eta, mean, nonlinear }
     }
 }
@@ -106,6 +106,12 @@ impl BsdfKind for Plastic {
         (1.0 - self.mirrors(self.reflected(wo.cos()))) * wi.cos() * real::INV_PI
     }
 
+    /// The coat mirrors.
+    #[inline]
+    fn has_single_directions(&self) -> bool {
+        true
+    }
+
     fn albedo(&self) -> Rgb {
         let through = 1.0 - self.coat.mean;
         Rgb::grey(self.coat.mean) + self.base * (real::PI * through * through)
@@ -118,6 +124,9 @@ impl BsdfKind for Plastic {
             of(1.5, false, Rgb([1.0, 0.5, 0.1])),
             of(1.9, true, Rgb([0.8, 0.3, 0.0])),
             of(1.49, true, Rgb::BLACK),
+            of(1.0 / 1.5, true, Rgb([1.0, 0.5, 0.1])),
+            of(0.3, true, Rgb([1.0, 0.5, 0.1])),
+            of(0.3, false, Rgb([1.0, 0.5, 0.1])),
         ]
     }
 }

@@ -172,7 +172,7 @@ impl BsdfKind for RoughDielectric {
 
     /// What masking leaves of reflection and refraction together.
     fn albedo(&self) -> Rgb {
-        let mean = fresnel::average(|mu| Rgb::grey(fresnel::dielectric(mu, self.eta).reflected));
+        let mean = Rgb::grey(fresnel::average_of(self.eta, |mu| fresnel::dielectric(mu, self.eta).reflected));
         (self.reflectance * mean + self.transmittance * (Rgb::WHITE - mean)) * self.kept
     }
 

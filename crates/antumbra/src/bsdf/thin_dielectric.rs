@@ -69,12 +69,12 @@ impl BsdfKind for ThinDielectric {
     }
 
     fn albedo(&self) -> Rgb {
-        let mean = fresnel::average(|mu| Rgb::grey(self.reflected(mu)));
+        let mean = Rgb::grey(fresnel::average_of(self.eta, |mu| self.reflected(mu)));
         self.reflectance * mean + self.transmittance * (Rgb::WHITE - mean)
     }
 
     fn examples() -> Vec<ThinDielectric> {
         let tinted = ThinDielectric { transmittance: Rgb([1.0, 0.5, 0.0]), ..ThinDielectric::clear(2.4) };
-        vec![ThinDielectric::clear(1.5), tinted]
+        vec![ThinDielectric::clear(1.5), ThinDielectric::clear(0.5), tinted]
     }
 }

@@ -54,10 +54,10 @@ impl Directions {
         (at.sees_side(drawn.wi) != through && !drawn.throughput.is_black()).then_some(drawn)
     }
 
-    /// Directions are drawn as the BSDF sends light: where the hemisphere above holds not all of them, or none at all.
+    /// Directions are drawn as the BSDF sends light: where the hemisphere above holds not all of them, or single ones.
     #[inline]
     fn follows(self, bsdf: &Bsdf) -> bool {
-        self == Directions::Bsdf || bsdf.is_delta() || bsdf.index_below().is_some()
+        self == Directions::Bsdf || bsdf.has_single_directions() || bsdf.index_below().is_some()
     }
 
     /// p(ω) of `draw` [1/sr].

@@ -3,7 +3,8 @@
 use antumbra_math::Rgb;
 
 use crate::bsdf::{
-    Coat, Conductor, Dielectric, Facets, Metal, RoughCoat, RoughConductor, RoughDielectric, ThinDielectric,
+    BsdfKind, Coat, Conductor, Dielectric, Facets, Metal, Mirror, Plastic, RoughCoat, RoughConductor,
+    RoughDielectric, ThinDielectric,
 };
 
 /// Index of a material in its scene.
@@ -70,30 +71,28 @@ impl Surface {
     /// A part of its light leaves into single directions, where light sampling cannot see it.
     pub fn has_single_directions(&self) -> bool {
         match self {
-            Surface::Mirror { .. }
-            | Surface::Conductor(_)
-            | Surface::Dielectric(_)
-            | Surface::ThinDielectric(_)
-            | Surface::Plastic { .. } => true,
+            Surface::Mirror { reflectance } => Mirror { reflectance: *reflectance }.has_single_directions(),
+            Surface::Conductor(c) => c.has_single_directions(),
+            Surface::Dielectric(d) => d.has_single_directions(),
+            Surface::ThinDielectric(d) => d.has_single_directions(),
+            Surface::Plastic { albedo, coat } => Plastic::new(*coat, *albedo).has_single_directions(),
+            Surface::RoughConductor(c) => c.has_single_directions(),
+            Surface::RoughDielectric(d) => d.has_single_directions(),
             Surface::Diffuse { .. }
             | Surface::Unlit { .. }
             | Surface::MetallicRoughness { .. }
-            | Surface::RoughConductor(_)
-            | Surface::RoughDielectric(_)
             | Surface::RoughPlastic { .. } => false,
         }
     }
 
     /// Its facets are wider along one tangent than along the other, so that it matters where the tangents lie.
     pub(super) fn is_stretched(&self) -> bool {
-        let facets = match self {
-            Surface::RoughConductor(c) => c.facets(),
-            Surface::RoughDielectric(d) => d.facets(),
-            Surface::RoughPlastic { coat, .. } => coat.facets(),
-            _ => return false,
-        };
-        let [u, v] = facets.alpha();
-        u != v
+        match self {
+            Surface::RoughConductor(c) => c.facets().is_stretched(),
+            Surface::RoughDielectric(d) => d.facets().is_stretched(),
+            Surface::RoughPlastic { coat, .. } => coat.facets().is_stretched(),
+            _ => false,
+        }
     }
 
     /// Gives it a colour: its albedo, reflectance, or what it lets through.

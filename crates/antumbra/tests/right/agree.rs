@@ -197,6 +197,23 @@ fn light_in_a_mirror_arrives() {
     judge.verdict("light_in_a_mirror_arrives", 1e-3);
 }
 
+/// Before a ball of polished plastic, whose coat mirrors and whose base does not, directions of any density find all light.
+#[test]
+fn plastic_shows_the_lights_in_any_directions() {
+    let mut room = rooms::lit();
+    let plastic = room.material(Material::plastic(Rgb::new(0.8, 0.3, 0.1), 1.9, None, true));
+    room.shape("ball", Shape::Sphere { center: [0.2, 0.8, 1.2], radius: 0.8 }, plastic);
+    let scene = room.build().unwrap();
+    let reference = look(&scene, &Settings { bounces: 1, viewing_rays: 512, seed: 77, ..small(Path) });
+    let mut ways = Vec::new();
+    for kind in [Mis, Hemisphere, Path, PathHemisphere] {
+        for directions in [Directions::Cosine, Directions::Uniform] {
+            ways.push(named(Settings { bounces: 1, directions, ..small(kind) }));
+        }
+    }
+    all_agree("plastic_shows_the_lights_in_any_directions", &scene, &reference, ways);
+}
+
 /// A camera before a mirror ball sees the lights in it: `mis`, `path` and `hemisphere` agree; `area` says it is blind.
 #[test]
 fn mirrors_show_the_lights() {
