@@ -187,9 +187,9 @@ fn maps_lie_beside_the_picture() {
     builder.light("key", Point { position: Vec3::new(-1.0, 3.0, 1.0), intensity: Rgb::WHITE });
     let three = look(&builder.build().unwrap(), &s);
     let names: Vec<&str> = three.aovs.iter().map(|(name, ..)| name.as_str()).collect();
-    assert_eq!(names, ["regions.key", "regions.1", "regions.2"]);
+    assert_eq!(names, ["regions.key", "regions.light 2", "regions.2"]);
     assert_eq!(plane(&three, "regions.key"), map);
-    assert!(plane(&three, "regions.1").iter().all(|c| [-1.0, 0.0, 3.0].contains(c)));
+    assert!(plane(&three, "regions.light 2").iter().all(|c| [-1.0, 0.0, 3.0].contains(c)));
 }
 
 /// Stopped while it renders, a picture has no maps and says so.
