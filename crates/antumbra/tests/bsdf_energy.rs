@@ -157,13 +157,15 @@ fn a_white_dielectric_is_a_white_furnace() {
 #[test]
 fn white_metal_is_a_white_furnace() {
     // Light that bounces between facets leaves in the end: albedo 1 at every roughness and angle. The share at F = 1 is
-    // tabulated from a quadrature that errs by 0.004 where μ is small and roughness large (`bsdf/ggx_albedo.rs`).
+    // tabulated from a quadrature that errs by 0.004 where roughness is large, in each of its two parts where μ is small
+    // (`bsdf/ggx_albedo.rs`).
     for roughness in [0.0, 0.2, 0.4, 0.6, 0.8, 1.0] {
         let bsdf = Bsdf::MetallicRoughness(MetallicRoughness::new(Rgb::WHITE, 1.0, roughness));
         for cos in COSINES.into_iter().filter(|&c| roughness > 0.0 || c >= 0.1) {
             let a = albedo(&bsdf, cos, 0);
             let off = (a - 1.0).abs();
-            assert!(off <= QUADRATURE + 4e-3, "roughness {roughness} cos {cos}: {a}");
+            let parts = if cos <= 0.01 { 2.0 } else { 1.0 };
+            assert!(off <= QUADRATURE + parts * 4e-3, "roughness {roughness} cos {cos}: {a}");
         }
     }
 }
