@@ -19,7 +19,7 @@ from antumbra.study.statistics import power_of_ten
 # The same scene written in three units: coordinates of one metre.
 FILES = {"kilometres": 1e-3, "metres": 1.0, "millimetres": 1e3}
 STARTS = {"none": "none", **{f"{power}": f"epsilon:1e{power}" for power in range(-10, 2)}, "safe": "safe"}
-FIRST = list(STARTS).index("-4")
+FIRST = list(STARTS).index("none")
 # Where the camera stands; `foot`: a column of pixels across the foot of the board, from below it.
 VIEWS: dict[str, dict[str, Any]] = {
     "all": {

@@ -143,7 +143,7 @@ def _stage(run: Run, measured: Mapping[str, Quantity]) -> list[Part]:
         )
     run.exr(_over_floor(run))
     strip = Strip(
-        "x", "Receiver, x to the side of the middle of the light", frames, 8, ("From the side", "Directions", "Area points"),
+        "x", "Receiver, x to the side of the middle of the light", frames, PLACES.index(0.0), ("From the side", "Directions", "Area points"),
         note=f"The receiver’s fisheye: straight up in the middle, the horizon as the rim, rings at 30° and 60°; equal areas are equal solid angles. {SHOWN:,} "
         f"random directions: dots find the light, crosses do not. {SIDE}² equal patches of the light: each dot is as large as its dω.",
     )  # fmt: skip
