@@ -5,6 +5,7 @@
 #![allow(clippy::unwrap_used, reason = "helpers of tests fail as tests do")]
 
 mod agree;
+mod batches;
 mod bits;
 mod closed;
 mod closed_ao;
