@@ -98,6 +98,12 @@ impl Facets {
         visible_normal(wo.0, self.alpha, u[1], real::cosf(phi), real::sinf(phi))
     }
 
+    /// Steps of the two numbers of `sample` for integrals by midpoints: GGX turns with the first and widens with the second;
+    /// Beckmann's slopes follow ω_o with the first.
+    pub fn steps(self) -> (usize, usize) {
+        if self.slopes == Slopes::Beckmann { (64, 24) } else { (32, 48) }
+    }
+
     /// Slopes seen from ω_o after stretching it to α = 1: along ω_o by the inverse of their distribution, across it a
     /// Gaussian.
     fn sample_beckmann(self, wo: Local, u: [f32; 2]) -> Vec3 {

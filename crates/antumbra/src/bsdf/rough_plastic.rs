@@ -103,9 +103,9 @@ fn mean(facets: Facets, n: usize, share: impl Fn(Local) -> f32) -> f32 {
     (0..n).map(at).sum::<f32>() / n as f32
 }
 
-/// The share that facets reflect of light from ω_o: the mean of F G₁(ω_i) over visible facets, by midpoints (to 6e-4).
+/// The share that facets reflect of light from ω_o: the mean of F G₁(ω_i) over visible facets, by midpoints (Beckmann: to 6e-4).
 fn shared(facets: Facets, eta: f32, wo: Local) -> f32 {
-    let (along, across) = (64, 48);
+    let (along, across) = facets.steps();
     let mut sum = 0.0;
     for i in 0..along * across {
         let u = [((i % along) as f32 + 0.5) / along as f32, ((i / along) as f32 + 0.5) / across as f32];
