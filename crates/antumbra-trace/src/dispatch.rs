@@ -3,7 +3,7 @@
 use fearless_simd::{Simd, dispatch};
 
 use crate::level::SimdLevel;
-use crate::traverse::{Asking, CHUNK, Lines, Masks, Opaque, Ready};
+use crate::traverse::{Asking, CHUNK, Desk, Lines, Masks, Opaque, Ready};
 use crate::walk;
 use crate::world::World;
 use crate::{Bits, Hits, Passes, Segments, Visibility};
@@ -80,7 +80,9 @@ fn occluded<S: Simd>(simd: S, world: &World, segments: &Segments<'_>, masks: &im
 fn nearest<S: Simd>(simd: S, world: &World, rays: &Segments<'_>, masks: &impl Masks, out: &mut Hits) {
     out.reset(rays.len());
     let lines = Lines::of(rays);
-    for i in 0..rays.len() {
-        walk::nearest(simd, world, rays, lines.line(i), i, masks, out);
+    let mut desk = Desk::EMPTY;
+    for from in (0..rays.len()).step_by(CHUNK) {
+        let count = CHUNK.min(rays.len() - from);
+        walk::nearest(simd, world, (rays, &lines), (from, count), masks, &mut desk, out);
     }
 }

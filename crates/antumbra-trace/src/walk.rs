@@ -5,9 +5,9 @@ use fearless_simd::Simd;
 use crate::law::Line;
 use crate::object::Object;
 use crate::traverse::{
-    Answers, AnyTriangle, Ask, Best, Chunk, Count, ExactTriangles, FastLine, Lines, Masks, NearestTriangle,
-    NotCounted, Ready, ShapeTree, ShapeVisit, TriangleTree, VisitAny, VisitNearest, any_hit, any_hit_exact,
-    nearest_hit, nearest_hit_exact,
+    Answers, AnyTriangle, Ask, Best, CHUNK, Chunk, Count, Desk, ExactTriangles, FastLine, Lines, Masks,
+    NearestTriangle, NotCounted, Ready, ShapeTree, ShapeVisit, TriangleTree, VisitAny, VisitNearest, any_hit,
+    any_hit_exact, nearest_hit, nearest_hit_exact,
 };
 use crate::world::World;
 use crate::{Hits, NO_PRIM, Segments};
@@ -59,29 +59,41 @@ pub(crate) fn occluded<S: Simd, M: Masks>(
     answers
 }
 
-/// The closest hit of entry `i`, rounded to `line`, written to `out`.
+/// The closest hits of the entries `from` … `from` + `count` − 1 (at most [`CHUNK`]), written to `out`.
 #[inline(always)]
 pub(crate) fn nearest<S: Simd, M: Masks>(
     simd: S,
     world: &World,
-    segments: &Segments<'_>,
-    line: FastLine,
-    i: usize,
+    (segments, lines): (&Segments<'_>, &Lines<'_>),
+    (from, count): (usize, usize),
     masks: &M,
+    desk: &mut Desk,
     out: &mut Hits,
 ) {
-    let ask = Ask::world(segments, i, masks);
-    let mut best = Best::none(line.tmax);
+    let mut bests = [Best::none(0.0); CHUNK];
+    for (i, best) in bests.iter_mut().enumerate().take(count) {
+        best.limit = lines.tmax(from + i);
+    }
     if !world.triangles.tree.is_empty() {
-        nearest_triangle::<S, M, false>(simd, &world.triangles, &line, &ask, &mut best);
+        let chunk = Chunk { of: &world.triangles, segments, lines, masks, from, count };
+        chunk.nearest(simd, desk, &mut bests, |ask, best| {
+            nearest_triangle_exact(&world.triangles, ask, best, &mut NotCounted);
+        });
     }
     if !world.shapes.tree.is_empty() || !world.places.places.is_empty() {
         simd.vectorize(
             #[inline(always)]
-            || nearest_other(simd, world, &line, &ask, &mut best),
+            || {
+                for (i, best) in bests.iter_mut().enumerate().take(count) {
+                    let ask = Ask::world(segments, from + i, masks);
+                    nearest_other(simd, world, &lines.line(from + i), &ask, best);
+                }
+            },
         );
     }
-    best.write(i, out);
+    for (i, best) in bests.iter().enumerate().take(count) {
+        best.write(from + i, out);
+    }
 }
 
 #[inline(always)]

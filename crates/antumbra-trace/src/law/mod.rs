@@ -25,10 +25,10 @@ pub use exact::stage2;
 pub use stage1::{Verdict, stage1};
 
 pub(crate) use exact::{side_of_direction, side_of_point};
-pub(crate) use stage1::{Edges, Numbers, TEN_W, decide, facing, volume};
+pub(crate) use stage1::{Edges, Numbers, T_BOUND, TEN_W, decide, facing, volume};
 
 /// Weights are taken from stage 1 while its bounds are below this part of their sum: 2⁻³⁰.
-const WEIGHT_BOUND: f64 = 1.0 / 1_073_741_824.0;
+pub(crate) const WEIGHT_BOUND: f64 = 1.0 / 1_073_741_824.0;
 
 /// Corners in f64 (written out: a closure here is not always inlined, and this is the hottest line of the referee).
 #[inline(always)]

@@ -6,7 +6,7 @@ use super::line::Line;
 /// 10 w, w = 2⁻⁵³: proved in LAW §1 for every value below, the bounds' own rounding included.
 pub(crate) const TEN_W: f64 = 10.0 / 9_007_199_254_740_992.0;
 /// 2⁻³⁰: t = sv / |det| is taken from here only if both parts are this good.
-const T_BOUND: f64 = 1.0 / 1_073_741_824.0;
+pub(crate) const T_BOUND: f64 = 1.0 / 1_073_741_824.0;
 
 /// What stage 1 knows of a line and a triangle.
 #[doc(hidden)]

@@ -128,10 +128,10 @@ pub(crate) fn any_hit<S: Simd>(
         } else {
             let node = &nodes[at.index()];
             let (pass, enter) = meet(simd, node, &ray, tmax);
-            let met = pass.to_bitmask() as u32;
+            let (met, enter) = (pass.to_bitmask() as u32, enter.to_array());
             if met & met.wrapping_sub(1) != 0 {
                 at = if ends {
-                    nearest_child(node, met, &enter.to_array(), &mut stack)
+                    nearest_child(node, met, |lane| enter[lane], &mut stack)
                 } else {
                     last_child(node, met, &mut stack)
                 };
@@ -169,18 +169,46 @@ pub(crate) fn nearest_hit<S: Simd>(
     visit: &mut impl VisitNearest<S>,
 ) {
     let ray = BoxRay::new(simd, line);
-    let mut tmax = line.tmax;
-    let mut stack = Stack::<(f32, Child), STACK>::new();
-    let mut at = Child::node(0);
+    let meet = |node: &Node, tmax: f32| meet(simd, node, &ray, f32x8::splat(simd, tmax));
+    go_on(simd, nodes, (meet, line.tmax), Child::node(0), &mut Stack::new(), visit);
+}
+
+/// As [`nearest_hit`] for a line that is already known to meet the children `met` of the root, which is not 0: it
+/// enters them at `enter`. `meet` as for [`go_on`].
+#[inline(always)]
+pub(crate) fn nearest_hit_below<S: Simd>(
+    simd: S,
+    nodes: &[Node],
+    line: (impl Fn(&Node, f32) -> (mask32x8<S>, f32x8<S>), f32),
+    (met, enter): (u32, impl Fn(usize) -> f32),
+    visit: &mut impl VisitNearest<S>,
+) {
+    let mut stack = Stack::new();
+    let first = nearest_child(&nodes[0], met, enter, &mut stack);
+    go_on(simd, nodes, line, first, &mut stack, visit);
+}
+
+/// From `at` through all that is on `stack`. `meet` says which boxes of a node a line meets before a t, and where it
+/// enters them.
+#[inline(always)]
+fn go_on<S: Simd>(
+    simd: S,
+    nodes: &[Node],
+    (meet, mut tmax): (impl Fn(&Node, f32) -> (mask32x8<S>, f32x8<S>), f32),
+    mut at: Child,
+    stack: &mut Stack<(f32, Child), STACK>,
+    visit: &mut impl VisitNearest<S>,
+) {
     loop {
         if at.is_leaf() {
             tmax = visit.nearest(simd, at.index());
         } else {
             let node = &nodes[at.index()];
-            let (pass, enter) = meet(simd, node, &ray, f32x8::splat(simd, tmax));
+            let (pass, enter) = meet(node, tmax);
             let met = pass.to_bitmask() as u32;
             if met != 0 {
-                at = nearest_child(node, met, &enter.to_array(), &mut stack);
+                let enter = enter.to_array();
+                at = nearest_child(node, met, |lane| enter[lane], stack);
                 continue;
             }
         }
@@ -199,12 +227,12 @@ pub(crate) fn nearest_hit<S: Simd>(
 fn nearest_child<const N: usize>(
     node: &Node,
     met: u32,
-    enter: &[f32; WIDTH],
+    enter: impl Fn(usize) -> f32,
     stack: &mut Stack<(f32, Child), N>,
 ) -> Child {
     let child = |met: u32| {
         let lane = met.trailing_zeros() as usize % WIDTH;
-        (enter[lane], node.child[lane])
+        (enter(lane), node.child[lane])
     };
     let mut first = child(met);
     let mut left = met & (met - 1);

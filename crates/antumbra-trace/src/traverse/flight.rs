@@ -44,7 +44,8 @@ impl<M: Masks> Chunk<'_, M> {
         alone: impl Fn(usize, FastLine) -> bool,
     ) -> Answers {
         let nodes = &self.of.tree.nodes;
-        let [live, wild] = ready.take(simd, (self.lines, &self.of.limits, &nodes[0]), self.from, self.count);
+        let tree = (self.lines, &self.of.limits, &nodes[0]);
+        let [live, wild] = ready.take(simd, tree, (self.from, self.count), None);
         let mut flight = Flight {
             chunk: self,
             ready,

@@ -5,6 +5,8 @@
 
 mod ask;
 mod boxes;
+mod closest;
+mod eight;
 mod exact;
 mod filter;
 mod flight;
@@ -17,6 +19,7 @@ mod vector;
 
 pub(crate) use ask::{Ask, Asking, Best, Masks, Opaque};
 pub(crate) use boxes::{VisitAny, VisitNearest, any_hit, nearest_hit};
+pub(crate) use closest::Desk;
 pub(crate) use exact::{Count, ExactVisit, NotCounted, any_hit_exact, nearest_hit_exact};
 pub(crate) use flight::{Answers, Chunk};
 pub(crate) use ray::{FastLine, Limits, Lines};

@@ -54,15 +54,21 @@ impl<'a> Lines<'a> {
         [a, b, c, d, e, f, self.reach]
     }
 
+    /// The largest t of entry i.
+    #[inline(always)]
+    pub fn tmax(&self, i: usize) -> f32 {
+        if self.reach[i] == TO_POINT { 1.0 } else { self.reach[i] }
+    }
+
     /// Entry i.
     #[inline(always)]
     pub fn line(&self, i: usize) -> FastLine {
         let o = [self.origin[0][i], self.origin[1][i], self.origin[2][i]];
         let e = [self.end[0][i], self.end[1][i], self.end[2][i]];
         if self.reach[i] == TO_POINT {
-            FastLine { o, d: [e[0] - o[0], e[1] - o[1], e[2] - o[2]], tmax: 1.0 }
+            FastLine { o, d: [e[0] - o[0], e[1] - o[1], e[2] - o[2]], tmax: self.tmax(i) }
         } else {
-            FastLine { o, d: e, tmax: self.reach[i] }
+            FastLine { o, d: e, tmax: self.tmax(i) }
         }
     }
 }

@@ -12,7 +12,11 @@ use crate::layout::{Node, Row, WIDTH};
 /// Lines that are made ready together.
 pub(crate) const CHUNK: usize = 128;
 
-type Column = [f32; CHUNK];
+/// One number a line.
+pub(super) type Column = [f32; CHUNK];
+
+/// Where lines enter the children of the root, by child.
+pub(crate) type Enters = [Column; WIDTH];
 
 /// Up to [`CHUNK`] lines. What a number means stands at [`BoxRay`](super::ray::BoxRay) and [`TriangleRay`].
 pub(crate) struct Ready {
@@ -45,18 +49,19 @@ impl Ready {
     };
 
     /// Takes entries `from` … `from` + `count` − 1 of `lines`; `count` ≤ [`CHUNK`]. Which of them meet a child of
-    /// `root`, and for which f32 is not proven.
+    /// `root`, and for which f32 is not proven. Where they enter the children goes to `enters`, if it is wanted.
     #[inline(always)]
     pub fn take<S: Simd>(
         &mut self,
         simd: S,
         (lines, limits, root): (&Lines<'_>, &Limits, &Node),
-        from: usize,
-        count: usize,
+        (from, count): (usize, usize),
+        mut enters: Option<&mut Enters>,
     ) -> [Lot; 2] {
         let (mut live, mut wild) = (Lot::default(), Lot::default());
         for block in 0..count.div_ceil(WIDTH) {
-            let [good, met] = self.eight(simd, (lines, limits, root), from + WIDTH * block, block);
+            let tree = (lines, limits, root);
+            let [good, met] = self.eight(simd, tree, from + WIDTH * block, block, enters.as_deref_mut());
             let there = 0xff >> WIDTH.saturating_sub(count - WIDTH * block);
             live[block / 8 % live.len()] |= (good & met & there) << (8 * (block % 8));
             wild[block / 8 % wild.len()] |= (!good & there) << (8 * (block % 8));
@@ -72,6 +77,7 @@ impl Ready {
         (lines, limits, root): (&Lines<'_>, &Limits, &Node),
         from: usize,
         block: usize,
+        enters: Option<&mut Enters>,
     ) -> [u64; 2] {
         let columns = lines.columns();
         let read = |k: usize| load(simd, columns[k], from);
@@ -101,7 +107,7 @@ impl Ready {
             self.rows[a][at..at + WIDTH].copy_from_slice(&near);
             self.rows[a + 3][at..at + WIDTH].copy_from_slice(&far);
         }
-        let children = meet_each(simd, root, &r, &or, tmax);
+        let children = meet_each(simd, root, (&r, &or, tmax), at, enters);
         self.roots[at..at + WIDTH].copy_from_slice(&transposed(children).to_le_bytes());
         [good, children.to_le_bytes().into_iter().fold(0, |any, line| any | u64::from(line))]
     }
@@ -115,6 +121,12 @@ impl Ready {
     /// Which boxes of `node` line `i` meets, and where it enters them (as [`meet`](super::boxes::meet)).
     #[inline(always)]
     pub fn meet<S: Simd>(&self, simd: S, node: &Node, i: usize) -> (mask32x8<S>, f32x8<S>) {
+        self.meet_before(simd, node, i, self.tmax[i % CHUNK])
+    }
+
+    /// As [`meet`](Ready::meet), before another `tmax`.
+    #[inline(always)]
+    pub fn meet_before<S: Simd>(&self, simd: S, node: &Node, i: usize, tmax: f32) -> (mask32x8<S>, f32x8<S>) {
         let i = i % CHUNK;
         let at = |row: usize, a: usize| {
             let plane = f32x8::load_array_ref(simd, node.row(self.rows[row][i]));
@@ -122,7 +134,7 @@ impl Ready {
         };
         let zero = f32x8::splat(simd, 0.0);
         let enter = at(0, 0).max(at(1, 1)).max(at(2, 2).max(zero));
-        let leave = at(3, 0).min(at(4, 1)).min(at(5, 2).min(f32x8::splat(simd, self.tmax[i])));
+        let leave = at(3, 0).min(at(4, 1)).min(at(5, 2).min(f32x8::splat(simd, tmax)));
         (enter.simd_le(leave * FAR_SLACK), enter)
     }
 
@@ -153,9 +165,16 @@ fn put<S: Simd>(column: &mut Column, at: usize, eight: f32x8<S>) {
     eight.store_slice(&mut column[at..at + WIDTH]);
 }
 
-/// Which of eight lines meet each child of `node`: one byte a child, one bit a line.
+/// Which of eight lines meet each child of `node`: one byte a child, one bit a line. `enters`: as for
+/// [`take`](Ready::take), from line `first` on.
 #[inline(always)]
-fn meet_each<S: Simd>(simd: S, node: &Node, r: &[f32x8<S>; 3], or: &[f32x8<S>; 3], tmax: f32x8<S>) -> u64 {
+fn meet_each<S: Simd>(
+    simd: S,
+    node: &Node,
+    (r, or, tmax): (&[f32x8<S>; 3], &[f32x8<S>; 3], f32x8<S>),
+    first: usize,
+    mut enters: Option<&mut Enters>,
+) -> u64 {
     let mut met = 0;
     for child in 0..node.count() % (WIDTH + 1) {
         let at = |row: usize| f32x8::splat(simd, node.planes[row][child]).mul_add(r[row % 3], or[row % 3]);
@@ -164,6 +183,9 @@ fn meet_each<S: Simd>(simd: S, node: &Node, r: &[f32x8<S>; 3], or: &[f32x8<S>; 3
             let (lower, upper) = (at(axis), at(axis + 3));
             enter = enter.max(lower.min(upper));
             leave = leave.min(lower.max(upper));
+        }
+        if let Some(enters) = enters.as_deref_mut() {
+            put(&mut enters[child], first, enter);
         }
         met |= enter.simd_le(leave * FAR_SLACK).to_bitmask() << (8 * child);
     }

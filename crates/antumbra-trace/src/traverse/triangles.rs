@@ -53,15 +53,15 @@ impl<S: Simd, M: Masks, const PLACED: bool> VisitAny<S> for AnyTriangle<'_, S, M
 
 /// A triangle that may be the closest hit.
 #[derive(Clone, Copy, Debug, Default)]
-struct Candidate {
-    leaf: u32,
-    lane: u32,
+pub(super) struct Candidate {
+    pub leaf: u32,
+    pub lane: u32,
     /// Its t is not below this.
-    from: f32,
+    pub from: f32,
 }
 
 /// Candidates that are kept before the law is asked.
-const ROOM: usize = 8;
+pub(super) const ROOM: usize = 8;
 
 /// A line on its way through a [`TriangleTree`], looking for the closest hit.
 ///
@@ -85,7 +85,17 @@ impl<'a, S: Simd, M: Masks, const PLACED: bool> NearestTriangle<'a, S, M, PLACED
         line: &FastLine,
         best: &'a mut Best,
     ) -> Self {
-        let ray = TriangleRay::new(simd, line, PLACED);
+        NearestTriangle::of_ray(of, ask, TriangleRay::new(simd, line, PLACED), best)
+    }
+
+    /// The same for a line that is already made ready.
+    #[inline(always)]
+    pub fn of_ray(
+        of: &'a TriangleTree,
+        ask: &'a Ask<'a, M>,
+        ray: TriangleRay<S>,
+        best: &'a mut Best,
+    ) -> Self {
         NearestTriangle { of, ask, ray, best, candidates: [Candidate::default(); ROOM], kept: 0 }
     }
 
@@ -95,6 +105,12 @@ impl<'a, S: Simd, M: Masks, const PLACED: bool> NearestTriangle<'a, S, M, PLACED
         if self.kept > 0 {
             self.decide(simd);
         }
+    }
+
+    /// Ends the walk short of the law: the candidates that it still has to be asked about, and how many they are.
+    #[inline(always)]
+    pub(super) fn leave(self) -> ([Candidate; ROOM], usize) {
+        (self.candidates, self.kept)
     }
 
     /// Lowers the limit by certain hits and keeps what may be closest.
@@ -206,7 +222,13 @@ pub(crate) fn blocks<M: Masks>(
 
 /// Offers the hits among `lanes` to `best`.
 #[inline(never)]
-fn offer<M: Masks>(of: &TriangleTree, ask: &Ask<'_, M>, leaf: usize, mut lanes: u32, best: &mut Best) {
+pub(super) fn offer<M: Masks>(
+    of: &TriangleTree,
+    ask: &Ask<'_, M>,
+    leaf: usize,
+    mut lanes: u32,
+    best: &mut Best,
+) {
     let line = ask.line();
     while lanes != 0 {
         let lane = lanes.trailing_zeros() as usize;
