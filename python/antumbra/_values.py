@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from os import PathLike, fspath
 from typing import Any
@@ -12,16 +13,16 @@ Vector = Sequence[float]
 Fields = dict[str, list[float]]
 
 
-class Described:
+class Described(ABC):
     """Something that is described by numbers with names; they are checked when it is made."""
 
     def __post_init__(self) -> None:
         """Raises ValueError or TypeError for a number that makes no sense."""
         self.fields()
 
+    @abstractmethod
     def fields(self) -> Fields:
         """Its numbers by name."""
-        raise NotImplementedError
 
 
 def color(name: str, value: Color) -> list[float]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import time
 import warnings
 from collections.abc import Callable
@@ -63,7 +64,13 @@ def builtin(name: str, **parameters: float) -> Scene:
     """
     text("name", name)
     words = [(key.replace("_", "-"), number(key, value)) for key, value in parameters.items()]
-    return Scene._of(_core.Scene.builtin(name, words))
+    try:
+        return Scene._of(_core.Scene.builtin(name, words))
+    except OptionError as problem:
+        # Parameters have dashes on the command line, underscores here.
+        scene, colon, what = str(problem).partition(": ")
+        dashed = re.compile(r"\b[a-z]+(?:-[a-z]+)+\b")
+        raise OptionError(scene + colon + dashed.sub(lambda word: word[0].replace("-", "_"), what)) from None
 
 
 def builtins() -> dict[str, str]:

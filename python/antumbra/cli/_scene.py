@@ -27,9 +27,9 @@ def options() -> list[Option]:
 def open_scene(
     scene: str, definitions: tuple[str, ...], up_axis: str | None, files_from: str | None
 ) -> _core.Scene:
-    """Reads or builds it. A path that exists wins; a name with a dot or a slash is always a file."""
+    """Reads or builds it."""
     given = [definition(text) for text in definitions]
-    if Path(scene).exists() or "." in scene or "/" in scene:
+    if is_file(scene, up_axis, files_from):
         if given:
             raise click.UsageError(f"-D {definitions[0]}: {scene} has no parameters")
         try:
@@ -39,14 +39,21 @@ def open_scene(
                 here = f'What lies here under this name hides the built-in scene "{scene}": go to another folder.'
                 problem.hint = f"{problem.hint}\n{here}".strip()
             raise
-    for option, value in (("--up-axis", up_axis), ("--files-from", files_from)):
-        if value is not None:
-            raise click.UsageError(f'{option} is for files: "{scene}" is a built-in scene')
     known = [name for name, _, _ in _core.builtins()]
     if scene not in known:
         hint = _say.nearest_hint(scene, known)
         raise click.UsageError(f'there is no scene "{scene}"{hint} ({", ".join(known)}; a file has a dot)')
     return _core.Scene.builtin(scene, [(name, number(name, text)) for name, text in given], keep=False)
+
+
+def is_file(scene: str, up_axis: str | None, files_from: str | None) -> bool:
+    """A path that exists wins; a name with a dot or a slash is always a file. Refuses options of files for names."""
+    if Path(scene).exists() or "." in scene or "/" in scene:
+        return True
+    for option, value in (("--up-axis", up_axis), ("--files-from", files_from)):
+        if value is not None:
+            raise click.UsageError(f'{option} is for files: "{scene}" is a built-in scene')
+    return False
 
 
 def tell(scene: _core.Scene, quiet: bool) -> None:

@@ -105,11 +105,8 @@ def _source(
 
     given = dict(_scene.definition(text) for text in definitions)
     parameters = {name: _scene.number(name, text) for name, text in given.items()}
-    if Path(scene).exists() or "." in scene or "/" in scene:
+    if _scene.is_file(scene, up_axis, files_from):
         return file(scene, up_axis, files_from), parameters
-    for option, value in (("--up-axis", up_axis), ("--files-from", files_from)):
-        if value is not None:
-            raise click.UsageError(f'{option} is for files: "{scene}" is a built-in scene')
     return source(scene), parameters
 
 

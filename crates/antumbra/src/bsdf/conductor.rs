@@ -16,12 +16,6 @@ pub struct Conductor {
 }
 
 impl BsdfKind for Conductor {
-    /// 0: two given directions never meet a single direction.
-    #[inline]
-    fn eval(&self, _wo: Local, _wi: Local) -> Rgb {
-        Rgb::BLACK
-    }
-
     /// The mirrored direction; throughput ρ F.
     #[inline(never)]
     fn sample(&self, wo: Local, _u: [f32; 3]) -> Option<BsdfSample> {
@@ -31,11 +25,6 @@ impl BsdfKind for Conductor {
         let fresnel = fresnel::conductor(wo.cos().min(1.0), self.metal.eta, self.metal.k);
         let throughput = self.reflectance * fresnel;
         Some(BsdfSample { wi: wo.mirrored(), throughput, density: Density::Delta })
-    }
-
-    #[inline]
-    fn pdf(&self, _wo: Local, _wi: Local) -> f32 {
-        0.0
     }
 
     #[inline]

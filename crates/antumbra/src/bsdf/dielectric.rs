@@ -30,12 +30,6 @@ impl Dielectric {
 }
 
 impl BsdfKind for Dielectric {
-    /// 0: two given directions never meet a single direction.
-    #[inline]
-    fn eval(&self, _wo: Local, _wi: Local) -> Rgb {
-        Rgb::BLACK
-    }
-
     /// Reflected with probability F, else refracted: throughput 1 or (n_o/n_i)², times its factor.
     #[inline(never)]
     fn sample(&self, wo: Local, u: [f32; 3]) -> Option<BsdfSample> {
@@ -52,11 +46,6 @@ impl BsdfKind for Dielectric {
             (Local::new(-wo.0.x / eta, -wo.0.y / eta, down), self.transmittance / (eta * eta))
         };
         Some(BsdfSample { wi, throughput, density: Density::Delta })
-    }
-
-    #[inline]
-    fn pdf(&self, _wo: Local, _wi: Local) -> f32 {
-        0.0
     }
 
     #[inline]

@@ -13,12 +13,6 @@ pub struct Mirror {
 }
 
 impl BsdfKind for Mirror {
-    /// 0: two given directions never meet a single direction.
-    #[inline]
-    fn eval(&self, _wo: Local, _wi: Local) -> Rgb {
-        Rgb::BLACK
-    }
-
     /// The mirrored direction; throughput ρ.
     #[inline]
     fn sample(&self, wo: Local, _u: [f32; 3]) -> Option<BsdfSample> {
@@ -26,11 +20,6 @@ impl BsdfKind for Mirror {
             return None;
         }
         Some(BsdfSample { wi: wo.mirrored(), throughput: self.reflectance, density: Density::Delta })
-    }
-
-    #[inline]
-    fn pdf(&self, _wo: Local, _wi: Local) -> f32 {
-        0.0
     }
 
     #[inline]

@@ -51,12 +51,19 @@ pub struct BsdfSample {
 
 /// What each kind of reflection answers.
 pub trait BsdfKind {
-    /// f_r(ω_o, ω_i) [1/sr], without the cosine; 0 for kinds that reflect into single directions.
-    fn eval(&self, wo: Local, wi: Local) -> Rgb;
+    /// f_r(ω_o, ω_i) [1/sr], without the cosine. 0, as it stands here, where all light leaves into single directions: two
+    /// given directions never meet one.
+    #[inline]
+    fn eval(&self, _wo: Local, _wi: Local) -> Rgb {
+        Rgb::BLACK
+    }
     /// Draws ω_i; `None` if nothing is reflected.
     fn sample(&self, wo: Local, u: [f32; 3]) -> Option<BsdfSample>;
     /// p(ω_i) of `sample` [1/sr]; 0 for single directions.
-    fn pdf(&self, wo: Local, wi: Local) -> f32;
+    #[inline]
+    fn pdf(&self, _wo: Local, _wi: Local) -> f32 {
+        0.0
+    }
     /// Reflects only into single directions: light sampling cannot see it.
     fn is_delta(&self) -> bool {
         false

@@ -32,12 +32,6 @@ impl ThinDielectric {
 }
 
 impl BsdfKind for ThinDielectric {
-    /// 0: two given directions never meet a single direction.
-    #[inline]
-    fn eval(&self, _wo: Local, _wi: Local) -> Rgb {
-        Rgb::BLACK
-    }
-
     /// Mirrored with probability R, else straight on.
     #[inline(never)]
     fn sample(&self, wo: Local, u: [f32; 3]) -> Option<BsdfSample> {
@@ -51,11 +45,6 @@ impl BsdfKind for ThinDielectric {
             (Local(-wo.0), self.transmittance)
         };
         Some(BsdfSample { wi, throughput, density: Density::Delta })
-    }
-
-    #[inline]
-    fn pdf(&self, _wo: Local, _wi: Local) -> f32 {
-        0.0
     }
 
     #[inline]

@@ -2,6 +2,7 @@
 
 use super::{Masks, SettingValue, Settings};
 use crate::estimator::{EstimatorKind, Falloff, Mistake, Options};
+use crate::film::Planes;
 use crate::light::{Light, LightPoints};
 use crate::sampler::{AnySampler, PassPlan, SamplerKind, SamplerOptions};
 use crate::scene::{Level, Look, Message, Scene, SceneError};
@@ -86,11 +87,13 @@ impl Settings {
 
     /// Directions find what a hole leaves out; without them it is lost.
     fn hole(&self) -> Option<String> {
-        let lost = self.light_points == LightPoints::Hole && self.estimator == EstimatorKind::Area;
-        lost.then(|| {
-            "light_points = hole never draws a quarter of a flat light: its light is missing, on purpose"
-                .into()
-        })
+        let what = match self.estimator {
+            _ if self.light_points != LightPoints::Hole => return None,
+            EstimatorKind::Area => "its light is missing",
+            _ if self.aov.has(Planes::UNSHADOWED) => "its light is missing in the plane unshadowed-direct",
+            _ => return None,
+        };
+        Some(format!("light_points = hole never draws a quarter of a flat light: {what}, on purpose"))
     }
 
     /// Where the random numbers come from.
