@@ -107,11 +107,11 @@ def test_shadow_rays_are_chosen_where_viewing_rays_are_given():
 
 def test_a_budget_of_seconds_is_measured_by_pilots():
     found = study(
-        "pillars", vary={"sampler": ["random", "owen"]}, budget={"seconds": [0.05]}, estimator="area"
+        "pillars", vary={"sampler": ["random", "owen"]}, budget={"seconds": [0.2]}, estimator="area"
     )
     assert all(row.viewing_rays > 1 for row in found.rows)
     # A clock on a busy machine: only the order of magnitude is a law.
-    assert all(0.05 / 10 < row.seconds.value < 0.05 * 10 for row in found.rows)
+    assert all(0.2 / 10 < row.seconds.value < 0.2 * 10 for row in found.rows)
 
 
 def test_slopes_over_a_budget_are_of_what_was_spent():
