@@ -28,7 +28,7 @@ HEMISPHERE = (
     "L_o(p) = ∫ over the hemisphere of f_r L_i cos θ dω, with dω = cos θ′ / r² dA",
 )
 SEGMENT = (
-    r"V(p, p') = \begin{cases} 0 & \exists \, \mark{t \in (0, 1)} : p + t \, (p' - p) \in \text{a surface} \\ 1 & \text{else} \end{cases}",
+    r"V(p, p') = \begin{cases} 0 & \exists \, \mark{t \in (0, 1)} \; : \; p + t \, (p' - p) \in \text{a surface} \\ 1 & \text{else} \end{cases}",
     "V(p, p′) = 0 if p + t (p′ − p) lies on a surface for some t strictly between 0 and 1, else 1",
 )
 

@@ -19,11 +19,15 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Question:
-    """What to predict first: one or two sentences, two to four `choices`, and the number of the right one."""
+    """What to predict first: one or two sentences, two to four `choices`, and the number of the right one.
+
+    `looks`: it asks about the pictures, which stand on its slide then.
+    """
 
     text: str
     choices: Sequence[str]
     right: int
+    looks: bool = False
 
     def __post_init__(self) -> None:
         """Looks at the choices."""

@@ -18,7 +18,7 @@ from antumbra import __version__, _core
 from antumbra.lecture import catalog
 
 # Another number where what is kept gets another form.
-FORM = 1
+FORM = 2
 # Where a figure's files lie: a plain name in one of two folders. A folder from somebody else may say anything.
 _PLACE = re.compile(r"(pictures|exr)/[^./\\:\0][^/\\:\0]*")
 

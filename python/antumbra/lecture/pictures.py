@@ -57,6 +57,17 @@ def ramp_png(values: ArrayLike, ramp: str, low: float = 0.0, high: float = 1.0, 
     return classes_png(steps, ramp_colours(RAMPS[ramp], tones))
 
 
+def two_ramps_png(
+    values: ArrayLike, second: ArrayLike, ramps: tuple[str, str], high: float, tones: int = 64
+) -> bytes:
+    """A map of numbers (H, W) from 0 to `high`, along another ramp where `second` is true; NaN is black."""
+    of, known = np.asarray(values, np.float64), ~np.isnan(np.asarray(values, np.float64))
+    share = np.clip(np.nan_to_num(of) / high, 0.0, 1.0)
+    steps = 1 + np.round(share * (tones - 1)).astype(np.uint8) + tones * np.asarray(second, bool)
+    colours = [colour for ramp in ramps for colour in ramp_colours(RAMPS[ramp], tones)]
+    return classes_png(steps * known, ("#000000", *colours))
+
+
 def classes_png(classes: ArrayLike, colours: tuple[str, ...] = REGIONS) -> bytes:
     """A map of whole numbers (H, W), each in its colour `#rrggbb`."""
     from PIL import Image

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable
+from collections.abc import Callable, Hashable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -10,8 +10,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from antumbra import _core
-from antumbra.lecture import pictures
-from antumbra.lecture.stages import Picture
+from antumbra.lecture import bars, pictures
+from antumbra.lecture.quantity import written
+from antumbra.lecture.stages import Bar, Picture
 from antumbra.lecture.variant import Pick, Variant
 
 if TYPE_CHECKING:
@@ -148,10 +149,40 @@ class Run:
         ramp: str = "blue",
         low: float = 0.0,
         high: float = 1.0,
+        unit: str = "",
+        ticks: Mapping[float, str] | None = None,
         noise: bool = False,
     ) -> Picture:
-        """Numbers (H, W) as a picture along a ramp of `pictures.RAMPS`, from `low` to `high`."""
-        return self._put(name, pictures.ramp_png(values, ramp, low, high), values, alt, caption, noise)
+        """Numbers (H, W) as a picture along a ramp of `pictures.RAMPS`, from `low` to `high`, with its colour bar.
+
+        `unit`: of the numbers, or what they count; "%" writes shares as per cent. `ticks`: what stands on the bar at
+        which number (default both ends and the middle).
+        """
+        bar = Bar([ramp], bars.ticks(values, low, high, unit, ticks), "" if unit == "%" else unit)
+        png = pictures.ramp_png(values, ramp, low, high)
+        return self._put(name, png, values, alt, caption, noise, bar)
+
+    def map_of_two(
+        self,
+        values: ArrayLike,
+        second: ArrayLike,
+        alt: str,
+        caption: str = "",
+        *,
+        name: str,
+        ramps: Mapping[str, str],
+        high: float,
+        unit: str = "",
+    ) -> Picture:
+        """Numbers (H, W) of two kinds from 0 to `high`, NaN black.
+
+        `ramps`: the ramp of each kind by its name; where `second` is true, a pixel is of the second kind.
+        """
+        ticks = bars.ticks(values, 0.0, high, unit, {0.0: "0", high: written(high, 2)})
+        first, other = ramps.values()
+        bar = Bar([first, other], ticks, "" if unit == "%" else unit, list(ramps))
+        png = pictures.two_ramps_png(values, second, (first, other), high)
+        return self._put(name, png, values, alt, caption, True, bar)
 
     def classes(
         self,
@@ -176,11 +207,20 @@ class Run:
             array = array if array.ndim == 3 else np.repeat(array[..., None], 3, 2)
             _core.write_picture(str(self.folder / file), np.ascontiguousarray(array))
 
-    def _put(self, name: str, png: bytes, shown: ArrayLike, alt: str, caption: str, noise: bool) -> Picture:
+    def _put(
+        self,
+        name: str,
+        png: bytes,
+        shown: ArrayLike,
+        alt: str,
+        caption: str,
+        noise: bool,
+        bar: Bar | None = None,
+    ) -> Picture:
         file = f"pictures/{self.name}{'-' if name else ''}{name}.png"
         self._path(file).write_bytes(png)
         height, width = np.shape(shown)[:2]
-        return Picture(file, width, height, alt, caption, noise)
+        return Picture(file, width, height, alt, caption, noise, bar)
 
     def _path(self, file: str) -> Path:
         if file not in self.files:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from antumbra.lecture.figure import Claim, Equation, Figure, Number, Pick, Question, Variant
 from antumbra.lecture.measures.replicates import mean_of
 from antumbra.lecture.scenes import builtin
@@ -30,12 +32,16 @@ def _measure(run):
 def _parts(run):
     """One part of every kind."""
     picture = run.picture("a", "Pillars, half in shadow.", "as it is", noise=True)
+    share = run.map(np.full((16, 24), 0.5), "Half everywhere.", name="half", unit="%")
+    steps = np.linspace(0, 2, 16 * 24).reshape(16, 24)
+    ramps = {"free": "blue", "blocked": "amber"}
+    two = run.map_of_two(steps, steps > 1, "Two halves.", name="two", ramps=ramps, high=1.0, unit="boxes")
     drawing = (
         Sketch(56, 32, ground="var(--lit)").light((4, 8), (4, 24)).text((20, 10), "light").done("A light.")
     )
     other = Sketch(56, 32).circle((10, 10), 5, "#15181f").done("A ball.")
     frames = [
-        Frame(f"{i}", f"i = {i}: <half>", [picture], more=", and more", drawing=d, facts=[f"fact {i}"])
+        Frame(f"{i}", f"i = {i}: <half>", [picture, share], more=", and more", drawing=d, facts=[f"fact {i}"])
         for i, d in enumerate([drawing, other, drawing])
     ]
     rays = Sketch(24, 16)
@@ -46,7 +52,7 @@ def _parts(run):
     return [
         Strip("i", "Which", frames, start=1, labels=("side", "picture")),
         Key([Entry("var(--umbra)", "Umbra", "none", drawing, 0), Entry("#fff", "Lit", "all", always="outside")], "i"),
-        Row([picture] * 4, note="Four alike."),
+        Row([picture, picture, picture, two], note="Three alike."),
         Tabs("sampler", "Sampler", [Panel(w, w, [Row([picture, picture])]) for w in ("random", "owen")]),
         Linked("ray", picture, rays.done("Two rays."), table),
         Plot(axes, "95 %.", Table(["N", "RMSE"], [["1", "1.00"]], "Errors.", foot=["slope", "−0.5"])),

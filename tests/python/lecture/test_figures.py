@@ -63,6 +63,13 @@ def test_a_figure_fits_its_page_and_its_slides(name, folder, browser):
         assert tab.evaluate("document.documentElement.scrollWidth <= innerWidth"), width
         assert tab.locator(f"#{name} .num1").inner_text().startswith(found["answer"]["value"])
         tab.close()
+    # A4 less its margins; two of 138 mm and what is between them fill it.
+    tab = browser.new_page(viewport={"width": round(182 * 96 / 25.4), "height": 1000})
+    tab.goto(f"{page}#{name}")
+    tab.emulate_media(media="print")
+    height = tab.locator(f"#{name}").bounding_box()["height"] * 25.4 / 96
+    assert height <= 138, f"{height:.0f} mm on paper"
+    tab.close()
     tab = browser.new_page(viewport={"width": 1280, "height": 720})
     for step in range(3):
         tab.goto(f"{page}#slides/{name}/step={step}")

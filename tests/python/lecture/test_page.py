@@ -164,10 +164,21 @@ def test_print_shows_strips_and_answers(open_page):
     assert tab.locator("#one .pan:visible").count() == 1
 
 
+def test_a_map_says_what_its_colours_mean(open_page):
+    tab = open_page()
+    bar = tab.locator("#one .row .cb").last
+    assert bar.get_attribute("aria-label") == "Colours from 0 to ≥ 1: free, blocked, boxes"
+    assert bar.locator("i").count() == 2 and bar.locator("span").all_inner_texts() == ["free", "blocked"]
+    frame = tab.locator("#one .frames > li.on .cb")
+    assert frame.locator("b").all_inner_texts() == ["0", "50", "100\u202f%"] and frame.is_visible()
+    tab.emulate_media(media="print")
+    assert not frame.is_visible() and tab.locator("#one .bars .cb").is_visible()
+
+
 def test_everything_has_a_name_for_the_ear(open_page):
     tab = open_page()
-    unnamed = "[...document.querySelectorAll('svg[role=img], math')].filter(e => !e.getAttribute('aria-label')).length"
-    assert tab.evaluate(unnamed) == 0
+    named = "[...document.querySelectorAll('svg[role=img], [role=math], .cb')].map(e => e.getAttribute('aria-label'))"
+    assert all(tab.evaluate(named))
     assert tab.locator("h1").count() == 1
     assert tab.evaluate(
         "[...document.querySelectorAll('table')].every(t => t.caption && t.querySelector('th[scope=col]'))"

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from antumbra.lecture import pictures
+from antumbra.lecture import bars, pictures
 from antumbra.lecture.geometry import Bodies, Disks, lens
 from antumbra.lecture.measures.regions import crossing, radii
 from antumbra.lecture.page import aspect, columns, printed
@@ -47,6 +47,22 @@ def test_ramps_climb_evenly_and_signed_is_white_at_zero():
     zero = opened(pictures.ramp_png(np.zeros((1, 1)), "signed", -1, 1, tones=65)).convert("RGB")
     assert zero.getpixel((0, 0)) == (255, 255, 255)
     assert opened(pictures.ramp_png(np.full((1, 1), np.nan), "blue")).size == (1, 1)
+
+
+def test_a_map_of_two_kinds_has_two_ramps_and_black_where_nothing_is():
+    values, second = np.array([[0.0, 1.0], [1.0, np.nan]]), np.array([[False, False], [True, True]])
+    shown = opened(pictures.two_ramps_png(values, second, ("blue", "amber"), 1.0)).convert("RGB")
+    found = ["#{:02x}{:02x}{:02x}".format(*shown.getpixel((x, y))) for y in range(2) for x in range(2)]
+    blue, amber = pictures.RAMPS["blue"], pictures.RAMPS["amber"]
+    assert found == [blue[0], blue[-1], amber[-1], "#000000"]
+
+
+def test_a_colour_bar_says_where_a_map_goes_beyond_it():
+    assert bars.ticks([0.2, 1.0], 0.0, 1.0, "%") == [(0.0, "0"), (0.5, "50"), (1.0, "100\u202f%")]
+    beyond = bars.ticks([-0.2, 0.1], -0.15, 0.15, "%")
+    assert [words for _, words in beyond] == ["≤ −15", "0", "+15\u202f%"]
+    decades = bars.ticks([1.6, np.nan], -1.0, 1.5, "", {-1: "0.1", 0: "1", 1: "10"})
+    assert decades == [(0.0, "0.1"), (0.4, "1"), (0.8, "10")]
 
 
 def test_a_smaller_picture_is_smaller():

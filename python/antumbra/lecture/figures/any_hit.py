@@ -10,7 +10,6 @@ from antumbra.lecture.chapters import SEGMENT
 from antumbra.lecture.figure import Claim, Equation, Figure, Number, Pick, Question
 from antumbra.lecture.measures.replicates import mean_of
 from antumbra.lecture.measures.visits import disagree, rates, shadow_rays
-from antumbra.lecture.pictures import RAMPS, ramp_colours
 from antumbra.lecture.quantity import Quantity, written
 from antumbra.lecture.run import Run
 from antumbra.lecture.scenes import builtin
@@ -20,9 +19,7 @@ SCENES = {"interior": builtin("interior"), "scan": builtin("scan", triangles=50_
 SIZE, TIMES = Pick((240, 168), (640, 448)), Pick(4, 8)
 COUNTS = ("any_boxes", "closest_boxes", "any_primitives", "closest_primitives")
 RAYS = {True: "blocked", False: "free"}
-# Colours of the maps: no ray; free rays from few visits to many; blocked ones.
-TONES = 30
-HEAT = ("#000000", *ramp_colours(RAMPS["blue"], TONES), *ramp_colours(RAMPS["amber"], TONES))
+WHAT = "boxes and triangles"
 
 
 def _measure(run: Run) -> Mapping[str, Quantity]:
@@ -78,11 +75,11 @@ def _maps(run: Run, name: str, measured: Mapping[str, Quantity]) -> Row:
 
     def heat(kind: str, caption: str) -> Picture:
         total = asked.total(kind)
-        steps = 1 + np.minimum(total / high * TONES, TONES - 1).astype(int) + TONES * blocked
         alt = f"{caption}: {total[blocked].mean():.0f} boxes and triangles for a blocked ray, {total[~blocked].mean():.0f} for a free one."
-        return run.classes(
-            np.nan_to_num(asked.picture(steps)), alt, caption, name=f"{name}-{kind}", colours=HEAT
-        )
+        return run.map_of_two(
+            asked.picture(total), asked.picture(blocked) == 1, alt, caption, name=f"{name}-{kind}",
+            ramps={"free": "blue", "blocked": "amber"}, high=high, unit=WHAT,
+        )  # fmt: skip
 
     any_hit, closest = (asked.picture(asked.total(kind)) for kind in ("any", "closest"))
     run.exr(np.nan_to_num(np.stack([any_hit, closest, asked.picture(blocked)], 2)), name)
@@ -94,11 +91,12 @@ def _maps(run: Run, name: str, measured: Mapping[str, Quantity]) -> Row:
         name=f"{name}-saved",
         ramp="amber",
         high=high / 2,
+        unit=WHAT,
         noise=True,
     )
     return Row(
-        [heat("any", "any hit; amber: blocked"), heat("closest", "closest hit; blue: free"), saved],
-        f"One ray a pixel, to the middle of a light; black: no ray. Brighter: more boxes and triangles, white at {high:.0f}; on the right at {high / 2:.0f}.",
+        [heat("any", "any hit"), heat("closest", "closest hit"), saved],
+        "One ray a pixel, to the middle of a light; black: no ray.",
     )
 
 

@@ -188,7 +188,7 @@ def _table(measured: Mapping[str, Quantity]) -> Table:
 
 FIGURE = Figure(
     number=16, chapter=4, title="One of three is right", seconds=Pick(5, 90),
-    question=Question("The same room three times, each picture exposed for itself. Two of the estimators lack a term. Which picture is right?", "ABC", 1),
+    question=Question("The same room three times, each picture exposed for itself. Two of the estimators lack a term. Which picture is right?", "ABC", 1, looks=True),
     variants=[
         Variant("area", low_room(0.4), LOOK | {"estimator": "area"}), Variant("mis", low_room(0.4), LOOK | {"estimator": "mis"}),
         *(Variant(m.name, low_room(0.4), LOOK | {"estimator": m.estimator, "mistake": m.name}) for m in MISTAKES),

@@ -50,18 +50,18 @@ def _stage(run: Run, measured: Mapping[str, Quantity]) -> list[Strip]:
         off = np.where(product > 0.1 * white, true / np.maximum(product, 1e-9) - 1, 0.0).mean(2)
         span = f"{100 * off.min():+.0f} to {100 * off.max():+.0f} %".replace("-", "−")
         pictures = [
-            run.map(seen, f"Visible fraction, from {seen.min():.2f} to 1.", name=f"{key}-seen"),
+            run.map(seen, f"Visible fraction, from {seen.min():.2f} to 1.", name=f"{key}-seen", unit="%"),
             run.picture(light, "Unshadowed light, brightest in the middle.", name=f"{key}-light", white=white),
             run.picture(product, "The product: a shadow.", name=f"{key}-product", white=white),
             run.picture(true, "The true picture: a shadow of another shape.", name=f"{key}-true", white=white),
-            run.map(off, f"True over product less 1: {span}.", name=f"{key}-off", ramp="signed", low=-0.15, high=0.15),
+            run.map(off, f"True over product less 1: {span}.", name=f"{key}-off", ramp="signed", low=-0.15, high=0.15, unit="%"),
         ]  # fmt: skip
         frames.append(
             Frame(f"{radius:g}", f"R = {radius:g}: off by {span}", pictures, short=f"R = {radius:g}")
         )
     label = "Radius R of the light, 2 above the floor; the occluder, of radius 0.2, hangs halfway"
     return [Strip("R", label, frames, 4, ("V, seen", "E, unshaded", "V · E", "true", "true / V·E"),
-        note="The last map, true light over V · E: white where both agree, orange where there is more light, blue where less; full colour at 15 %.")]  # fmt: skip
+        note="The last map, true light over V · E: white where both agree, orange where there is more light, blue where less.")]  # fmt: skip
 
 
 FIGURE = Figure(

@@ -83,6 +83,7 @@ def _render(
         "columns": columns,
         "aspect": aspect,
         "printed": printed,
+        "scales": scales,
         "single": single,
     }
     # `</` would end the script element that holds the numbers.
@@ -95,6 +96,7 @@ def _render(
         phases=_phases(chapters),
         foot=foot,
         data=numbers,
+        ramps=Markup(_ramps()),
         css=Markup((_HERE / "page.css").read_text(encoding="utf-8")),
         js=Markup((_HERE / "page.js").read_text(encoding="utf-8")),
     )
@@ -122,6 +124,33 @@ def printed(frames: int, start: int, at_most: int = 6) -> set[int]:
     if start not in chosen:
         chosen.remove(min(chosen - {0, frames - 1}, key=lambda i: abs(i - start)))
     return chosen | {start}
+
+
+def scales(strip: Mapping[str, Any]) -> list[tuple[str, Mapping[str, Any]]]:
+    """The maps of a slider whose colour bars stand once below its printed frames: label of the column, and its bar.
+
+    Frames of a column share their scale; of their bars, one that says that a map goes beyond it.
+    """
+    found = []
+    for column, pictures in enumerate(zip(*(frame["pictures"] for frame in strip["frames"]), strict=True)):
+        bars = [picture["bar"] for picture in pictures if picture["bar"]]
+        if bars:
+            beyond = max(bars, key=lambda bar: sum(len(words) for _, words in bar["ticks"]))
+            found.append((_label(strip, column), beyond))
+    return found
+
+
+def _label(strip: Mapping[str, Any], column: int) -> str:
+    """What stands over a column of pictures; a drawing has the first label."""
+    labels = strip["labels"][1 if strip["frames"][0]["drawing"] else 0 :]
+    return str(labels[column]) if column < len(labels) else ""
+
+
+def _ramps() -> str:
+    """The ramps of maps as colours of the page, for their bars."""
+    from antumbra.lecture.pictures import RAMPS
+
+    return ";".join(f"--{name}:linear-gradient(90deg,{','.join(stops)})" for name, stops in RAMPS.items())
 
 
 def _phases(chapters: Sequence[Mapping[str, Any]]) -> list[Any]:

@@ -36,17 +36,17 @@ $$('.px').forEach(s=>{const f=s.closest('.fig'),k=s.dataset.key,hot=j=>{$('.scen
 // copy
 $$('.cmd button').forEach(b=>b.onclick=async()=>{const c=b.previousElementSibling;try{await navigator.clipboard.writeText(c.textContent);b.textContent='Copied'}catch(e){getSelection().selectAllChildren(c);b.textContent='Selected'}say('Command '+b.textContent.toLowerCase());setTimeout(()=>b.textContent='Copy',1600)});
 // slides
-const cur=()=>Math.max(0,figs.findIndex(f=>f.id==st.fig)),show=()=>{D.body.classList.toggle('slides',st.slides);$('#b-slides').setAttribute('aria-pressed',st.slides);const n=cur();figs.forEach((f,i)=>{f.classList.remove('cur','s0','s1','s2');if(st.slides&&i==n){f.classList.add('cur','s'+st.step);D.body.dataset.pos=(n+1)+' / '+figs.length}})};
+const asks=f=>f.dataset.asks!=null,cur=()=>Math.max(0,figs.findIndex(f=>f.id==st.fig)),show=()=>{D.body.classList.toggle('slides',st.slides);$('#b-slides').setAttribute('aria-pressed',st.slides);const n=cur();figs.forEach((f,i)=>{f.classList.remove('cur','s0','s1','s2');if(st.slides&&i==n){f.classList.add('cur','s'+(st.step||+asks(f)));D.body.dataset.pos=(n+1)+' / '+figs.length}})};
 const go=(n,s=0)=>{n=Math.min(figs.length-1,Math.max(0,n));const a=st.kv.answers;if(figs[n].id!=st.fig)st.kv=a?{answers:a}:{};st.fig=figs[n].id;st.step=s;s?st.kv.step=s:delete st.kv.step;write();show();say($('h3',figs[n]).textContent+', '+['question','picture','number'][s])};
 const slides=on=>{if(!figs.length)return;st.slides=on;if(on)go(cur());else{delete st.kv.step;write();show();$('#'+(st.fig||'top')).scrollIntoView()}};
 $('#b-slides').onclick=()=>{const n=figs.findIndex(f=>f.getBoundingClientRect().bottom>200);if(n>=0&&!st.slides&&figs[n].id!=st.fig){st.fig=figs[n].id;st.kv={}}slides(true)};$('#b-print').onclick=()=>print();
-const next=()=>{st.step<2?go(cur(),st.step+1):cur()<figs.length-1&&go(cur()+1)};$('#b-exit').onclick=()=>slides(false);
+const next=()=>{st.step<2?go(cur(),asks(figs[cur()])?2:st.step+1):cur()<figs.length-1&&go(cur()+1)};$('#b-exit').onclick=()=>slides(false);
 D.addEventListener('click',e=>{st.slides&&!e.target.closest('button,a,input,label,[data-j]')&&next()});
 addEventListener('keydown',e=>{if(!st.slides||e.altKey||e.ctrlKey||e.metaKey)return;const T=e.target,k=e.key,own=T.matches('input,[role=tab]');
  if(k=='Escape')slides(false);else if((k==' '||k=='PageDown')&&!T.matches('button'))next();else if(k=='PageUp'){st.step?go(cur(),st.step-1):cur()&&go(cur()-1,2)}else if(k=='ArrowRight'&&!own)go(cur()+1);else if(k=='ArrowLeft'&&!own)go(cur()-1);else return;e.preventDefault()});
 const apply=()=>{const at=read(),k=st.kv;ctl.forEach(([f,c,to])=>to(f==st.fig?k[c]:undefined));if(k.answers)answers(true);st.step=Math.min(2,Math.max(0,+k.step||0));if(st.slides&&!st.fig&&figs.length)st.fig=figs[0].id;show();const to=D.getElementById(st.fig||at);if(to&&!st.slides)to.scrollIntoView()};
 addEventListener('hashchange',apply);apply();
 // equations that do not fit get smaller
-const fit=()=>$$('.eq').forEach(e=>{const m=$('math',e);if(!m)return;m.style.fontSize='';const r=e.clientWidth/e.scrollWidth;if(r<1)m.style.fontSize=Math.max(50,98*r|0)+'%'});addEventListener('resize',fit);fit();
+const fit=()=>$$('.eq').forEach(e=>{const m=$('.m',e);if(!m)return;m.style.fontSize='';const r=e.clientWidth/e.scrollWidth;if(r<1)m.style.fontSize=Math.max(50,98*r|0)+'%'});addEventListener('resize',fit);fit();
 const nv=$$('.bar nav a'),io=new IntersectionObserver(es=>es.forEach(e=>{if(e.isIntersecting)nv.forEach(a=>{const on=a.hash=='#'+e.target.dataset.ch;a.classList.toggle('on',on);on?a.setAttribute('aria-current','true'):a.removeAttribute('aria-current')})}),{rootMargin:'-20% 0px -70%'});$$('[data-ch]').forEach(s=>io.observe(s));
 })();

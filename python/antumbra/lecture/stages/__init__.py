@@ -6,7 +6,7 @@ Row, Strip (a slider), Tabs, Plot, Table, Linked (rays over a picture and their 
 
 from __future__ import annotations
 
-from antumbra.lecture.stages.base import Drawing, Part, Picture, plain
+from antumbra.lecture.stages.base import Bar, Drawing, Part, Picture, plain
 from antumbra.lecture.stages.drawing import Sketch
 from antumbra.lecture.stages.key import Entry, Key
 from antumbra.lecture.stages.linked import Linked
@@ -17,6 +17,7 @@ from antumbra.lecture.stages.table import Table
 from antumbra.lecture.stages.tabs import Panel, Tabs
 
 __all__ = [
+    "Bar",
     "Drawing",
     "Entry",
     "Frame",

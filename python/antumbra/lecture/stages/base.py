@@ -1,4 +1,4 @@
-"""What stages are made of: `Part`, `Picture`, `Drawing`."""
+"""What stages are made of: `Part`, `Picture` with its colour `Bar`, `Drawing`."""
 
 from __future__ import annotations
 
@@ -16,10 +16,25 @@ class Part:
 
 
 @dataclass(frozen=True)
+class Bar(Part):
+    """What the colours of a map mean: ramps of `pictures.RAMPS` and their values.
+
+    `ticks`: places along them, 0 to 1, with what stands there; `unit`: of the values, or what they count; `names`: what
+    has which ramp, where there are two.
+    """
+
+    kind = "bar"
+    ramps: Sequence[str]
+    ticks: Sequence[tuple[float, str]]
+    unit: str = ""
+    names: Sequence[str] = ()
+
+
+@dataclass(frozen=True)
 class Picture(Part):
     """A picture file of the page, its size in pixels, its result as a sentence (`alt`), what stands under it.
 
-    `noise`: pixels stay squares when it is enlarged.
+    `noise`: pixels stay squares when it is enlarged; `bar`: of a map of numbers, what its colours mean.
     """
 
     kind = "picture"
@@ -29,6 +44,7 @@ class Picture(Part):
     alt: str
     caption: str = ""
     noise: bool = False
+    bar: Bar | None = None
 
     def __post_init__(self) -> None:
         """A picture says its result in words, for those who do not see it."""
