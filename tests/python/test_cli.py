@@ -164,11 +164,42 @@ def test_info_as_json_has_stable_keys(antumbra):
     assert list(found) == [
         "name", "bytes", "seconds", "source", "triangles", "shapes", "meshes", "objects", "instances", "bounds",
         "tree_bytes", "lights", "cameras", "materials", "masked_materials", "textures", "texture_bytes",
-        "looks_wrong", "parameters", "messages",
+        "largest_texture", "surfaces", "looks_wrong", "parameters", "messages",
     ]  # fmt: skip
     assert found["name"] == "pillars" and found["triangles"] > 0
     listed = json.loads(antumbra("info", "--list", "--json").out)
     assert {"cornell-box", "pillars", "eclipse"} <= {scene["name"] for scene in listed}
+
+
+def ring_of_quads(side, n, turned=()):
+    """An OBJ of an n-sided tube of squares, open at both ends; the squares of `turned` run the other way round."""
+    corners = [(np.cos(a) * side, h, np.sin(a) * side) for h in (0, 1) for a in 2 * np.pi * np.arange(n) / n]
+    faces = [[i + 1, (i + 1) % n + 1, (i + 1) % n + n + 1, i + n + 1] for i in range(n)]
+    faces = [face[::-1] if i in turned else face for i, face in enumerate(faces)]
+    lines = [f"v {x} {y} {z}" for x, y, z in corners] + ["f " + " ".join(map(str, face)) for face in faces]
+    return "o Tube\n" + "\n".join(lines) + "\n"
+
+
+def test_info_tells_open_closed_and_flipped_geometry(antumbra, tmp_path):
+    (tmp_path / "tube.obj").write_text(ring_of_quads(1, 12), encoding="utf-8")
+    said = antumbra("info", "tube.obj").out
+    assert "surfaces                 1 open (24 open edges)\n" in said and "looks wrong" not in said
+    (tmp_path / "tube.obj").write_text(ring_of_quads(1, 12, turned=[3]), encoding="utf-8")
+    assert '"Tube" (2 edges) is flipped in part' in antumbra("info", "tube.obj").out
+    found = json.loads(antumbra("info", "tube.obj", "--json").out)
+    assert found["surfaces"] == {
+        "closed_meshes": 0, "open_meshes": 1, "edges": 48, "open_edges": 24, "turned_edges": 2,
+        "duplicate_triangles": 0, "triangles_without_area": 0, "triangles_with_normals_on_the_back": 0,
+    }  # fmt: skip
+
+
+def test_info_of_real_files(antumbra, data):
+    spot = antumbra("info", data / "scenes/mesh/spot.obj").out
+    assert "surfaces                 1 closed\n" in spot and "looks wrong" not in spot
+    spider = antumbra("info", data / "scenes/mesh/spider.obj").out
+    assert "36 duplicate triangles" in " ".join(spider.split())
+    blend = antumbra("info", data / "scenes/gltf/AlphaBlendModeTest.glb").out
+    assert "8 textures, 71.3 MB decoded, the largest 2048 × 2048" in " ".join(blend.split())
 
 
 def test_every_built_in_scene_is_listed_with_its_parameters(antumbra):
@@ -198,7 +229,8 @@ def test_diff_measures_what_it_says(antumbra, tmp_path):
     assert found["mse"] == pytest.approx(0.0625)
     assert found["relmse"] == pytest.approx(0.0625 / (0.0625 + 0.01))
     assert 0 < found["flip"] <= 1
-    assert am.load_image(tmp_path / "map.png").shape == (8, 12, 3)
+    # The map of 8 × 12 pixels, its colour bar below, and paper beside, as wide as the words of the bar.
+    assert am.load_image(tmp_path / "map.png").shape == (56, 160, 3)
 
 
 def test_parts_of_a_picture_compose_and_are_compared_where_they_lie(antumbra, tmp_path):

@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 
 use antumbra::light::Light;
-use antumbra::scene::{Alpha, Body, Camera, Emits, Projection, Scene};
+use antumbra::scene::{Alpha, Body, Camera, Emits, Projection, Scene, Surfaces};
 use antumbra::texture::Texels;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
@@ -15,6 +15,8 @@ struct Counted {
     name: String,
     kind: &'static str,
     power: f32,
+    /// Of an environment: mean luminance over all directions, and its picture's size.
+    sky: Option<(f32, Option<[u32; 2]>)>,
 }
 
 #[pymethods]
@@ -57,7 +59,11 @@ impl PyScene {
         out.set_item("masked_materials", masked)?;
         out.set_item("textures", scene.textures.len())?;
         out.set_item("texture_bytes", texture_bytes(&scene))?;
-        out.set_item("looks_wrong", scene.looks_wrong())?;
+        let largest = scene.textures.iter().map(|t| [t.image.width, t.image.height]).max_by_key(area);
+        out.set_item("largest_texture", largest)?;
+        let surfaces = scene.surfaces();
+        out.set_item("surfaces", surfaces_dict(py, &surfaces)?)?;
+        out.set_item("looks_wrong", scene.looks_wrong(&surfaces))?;
         Ok(out)
     }
 }
@@ -79,6 +85,25 @@ fn meshes(scene: &Scene) -> usize {
         Body::Shape(_) => None,
     };
     scene.objects.iter().filter_map(of).collect::<HashSet<_>>().len()
+}
+
+fn area([width, height]: &[u32; 2]) -> u64 {
+    u64::from(*width) * u64::from(*height)
+}
+
+/// What all meshes together are as surfaces: counts.
+fn surfaces_dict<'py>(py: Python<'py>, meshes: &[Surfaces]) -> PyResult<Bound<'py, PyDict>> {
+    let out = PyDict::new(py);
+    let sum = |of: fn(&Surfaces) -> u64| meshes.iter().map(of).sum::<u64>();
+    out.set_item("closed_meshes", sum(|m| u64::from(m.volume.is_some())))?;
+    out.set_item("open_meshes", sum(|m| u64::from(m.volume.is_none())))?;
+    out.set_item("edges", sum(|m| m.edges))?;
+    out.set_item("open_edges", sum(|m| m.open_edges))?;
+    out.set_item("turned_edges", sum(|m| m.turned_edges))?;
+    out.set_item("duplicate_triangles", sum(|m| m.duplicates))?;
+    out.set_item("triangles_without_area", sum(|m| m.without_area))?;
+    out.set_item("triangles_with_normals_on_the_back", sum(|m| m.backward_normals))?;
+    Ok(out)
 }
 
 /// Pictures that several textures share count once.
@@ -116,6 +141,7 @@ fn lights(scene: &Scene) -> Vec<Counted> {
         name: name_of[id].into(),
         kind: kind(light),
         power,
+        sky: sky(light),
     };
     let of = |id: &usize| scene.lights().get(*id).map_or(0.0, |l| l.power(scene.radius()));
     let single = scene.lights().iter().enumerate().filter(|(id, _)| !parts.contains(id));
@@ -127,10 +153,17 @@ fn lights(scene: &Scene) -> Vec<Counted> {
                 Emits::Each(first) => names.names[first as usize].clone(),
                 _ => object.name.clone(),
             };
-            all.push(Counted { name, kind: "area", power: ids.iter().map(of).sum() });
+            all.push(Counted { name, kind: "area", power: ids.iter().map(of).sum(), sky: None });
         }
     }
     all
+}
+
+fn sky(light: &Light) -> Option<(f32, Option<[u32; 2]>)> {
+    let Light::Environment(environment) = light else { return None };
+    let picture = environment.picture.as_ref();
+    let mean = picture.map_or(1.0, |p| p.mean() as f32) * environment.radiance.luminance();
+    Some((mean, picture.map(|p| [p.image().width, p.image().height])))
 }
 
 /// The lights that the triangles of an object are, one each.
@@ -145,6 +178,10 @@ fn light_dict<'py>(py: Python<'py>, light: &Counted) -> PyResult<Bound<'py, PyDi
     out.set_item("name", &light.name)?;
     out.set_item("kind", light.kind)?;
     out.set_item("power", light.power)?;
+    if let Some((mean, size)) = light.sky {
+        out.set_item("mean_radiance", mean)?;
+        out.set_item("size", size)?;
+    }
     Ok(out)
 }
 

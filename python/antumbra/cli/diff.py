@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 ORDER = 3
 # relMSE divides by the reference's square plus this, so that black pixels do not decide alone.
 EPSILON = 0.01
+# The colour bar under the map: its height, and how narrow a map may be for its words [pixels].
+_BAR, _NARROWEST = 48, 160
 
 
 def run(a: str, b: str, output: str | None, json: bool, quiet: bool, verbose: bool) -> int:
@@ -33,7 +35,7 @@ def run(a: str, b: str, output: str | None, json: bool, quiet: bool, verbose: bo
     shown = any(Path(name).suffix.lower() == ".png" for name in (a, b))
     found, error = measures(first, second, shown)
     if output is not None:
-        _write_map(error, output)
+        _write_map(error, found["flip"], output)
     print(_as_json(found, a, b, output) if json else _as_text(found, a, b, first, output))
     return 0
 
@@ -48,7 +50,7 @@ VERB = Verb(
         ("antumbra diff mine.png yours.png --json", "for programs"),
     ],
     options=[
-        output_option("FILE", "the false-colour map, .png"),
+        output_option("FILE", "the false-colour map with its colour bar, .png"),
         Option("--json", is_flag=True, group="Run", help="the numbers as JSON"),
     ],
 )
@@ -109,14 +111,41 @@ def measures(picture: Picture, reference: Picture, shown: bool) -> tuple[dict[st
     return found, np.asarray(flip_map, np.float32)[..., 0]
 
 
-def _write_map(error: Picture, path: str) -> None:
+def _write_map(error: Picture, mean: float, path: str) -> None:
+    """FLIP in the colours of magma, with its colour bar below."""
     import numpy as np
     from matplotlib import colormaps
 
-    shown = colormaps["magma"](error)[..., :3]
+    magma = colormaps["magma"]
+    height, width = error.shape
+    whole = np.ones((height + _BAR, max(width, _NARROWEST), 3))
+    whole[:height, :width] = magma(error)[..., :3]
+    whole[height:] = _bar(whole.shape[1], mean)
     # The writer takes linear light: sRGB's curve undone (IEC 61966-2-1), so that the map's own codes come out.
-    linear = np.where(shown <= 0.04045, shown / 12.92, ((shown + 0.055) / 1.055) ** 2.4)
+    linear = np.where(whole <= 0.04045, whole / 12.92, ((whole + 0.055) / 1.055) ** 2.4)
     _core.write_picture(path, np.ascontiguousarray(linear, np.float32))
+
+
+def _bar(width: int, mean: float) -> NDArray[np.float64]:
+    """A strip of `width` pixels: magma from 0 to 1, ticks with their numbers, the mean marked. sRGB codes in [0, 1]."""
+    import numpy as np
+    from matplotlib import colormaps
+    from PIL import Image, ImageDraw, ImageFont
+
+    left, right = 8, width - 9
+    strip = Image.new("RGB", (width, _BAR), "white")
+    colours = colormaps["magma"](np.linspace(0, 1, right - left + 1))[None, :, :3]
+    colours = (255 * np.repeat(colours, 10, axis=0) + 0.5).astype(np.uint8)
+    strip.paste(Image.fromarray(colours), (left, 8))
+    draw, font = ImageDraw.Draw(strip), ImageFont.load_default(10)
+    for tick in (0.0, 0.25, 0.5, 0.75, 1.0):
+        x = left + round(tick * (right - left))
+        draw.line((x, 18, x, 21), "black")
+        draw.text((x, 22), f"{tick:g}", "black", font, anchor="mt")
+    x = left + round(min(max(mean, 0.0), 1.0) * (right - left))
+    draw.polygon([(x - 4, 1), (x + 4, 1), (x, 7)], "black")
+    draw.text((left, 34), f"FLIP   mean {_say.significant(mean)} (marked)", "black", font, anchor="lt")
+    return np.asarray(strip, np.float64) / 255
 
 
 def _size(picture: Picture) -> str:

@@ -114,6 +114,8 @@ def _text(found: dict[str, Any]) -> str:
     rows = [
         (found["name"], f"{found['source']}{size}"),
         ("geometry", _geometry(found)),
+        ("", _bounds(found)),
+        ("surfaces", _surfaces(found)),
         ("lights", _lights(found["lights"])),
         (
             "cameras",
@@ -140,6 +142,32 @@ def _geometry(found: dict[str, Any]) -> str:
     return " · ".join(parts)
 
 
+def _bounds(found: dict[str, Any]) -> str:
+    if not found["bounds"]:
+        return ""
+    low, high = found["bounds"]
+    # What rounding leaves of a zero is a zero.
+    least = 1e-6 * max(top - bottom for bottom, top in zip(low, high, strict=True))
+
+    def place(x: float) -> str:
+        return _say.significant(x if abs(x) > least else 0)
+
+    span = (
+        f"{axis} {place(bottom)} to {place(top)}" for axis, bottom, top in zip("xyz", low, high, strict=True)
+    )
+    return "from " + ", ".join(span).replace("-", "−")
+
+
+def _surfaces(found: dict[str, Any]) -> str:
+    """How many meshes are closed; of the others, how many edges are open."""
+    meshes = found["surfaces"]
+    closed, open_ = meshes["closed_meshes"], meshes["open_meshes"]
+    parts = [f"{closed:,} closed"] if closed else []
+    if open_:
+        parts.append(f"{open_:,} open ({_say.some(meshes['open_edges'], 'open edge')})")
+    return " · ".join(parts)
+
+
 def _lights(lights: list[dict[str, Any]]) -> str:
     """By kind, the strongest first, by the names that `--light` takes."""
     kinds: dict[str, list[dict[str, Any]]] = {}
@@ -150,13 +178,18 @@ def _lights(lights: list[dict[str, Any]]) -> str:
 
 def _kind(kind: str, lights: list[dict[str, Any]]) -> str:
     if kind == "environment":
-        return f"environment {_listed([_quoted(light) for light in lights])}"
+        return f"environment {_listed([_sky(light) for light in lights])}"
     named: dict[str, list[float]] = {}
     for light in lights:
         named.setdefault(_quoted(light), []).append(light["power"])
     ordered = sorted(named.items(), key=lambda entry: -sum(entry[1]))
     listed = [f"{_times(name, len(each))} {_say.significant(sum(each))} W" for name, each in ordered]
     return f"{len(lights):,} {kind}: {_listed(listed)}"
+
+
+def _sky(light: dict[str, Any]) -> str:
+    size = "{} × {}, ".format(*light["size"]) if light["size"] else ""
+    return f"{_quoted(light)} ({size}mean radiance {_say.significant(light['mean_radiance'])} W/m²sr)"
 
 
 def _times(name: str, n: int) -> str:
@@ -196,7 +229,8 @@ def _materials(found: dict[str, Any]) -> str:
     masks = f" ({found['masked_materials']:,} with alpha masks)" if found["masked_materials"] else ""
     textures = found["textures"]
     decoded = (
-        f" · {_say.some(textures, 'texture')}, {_say.size(found['texture_bytes'])} decoded"
+        f" · {_say.some(textures, 'texture')}, {_say.size(found['texture_bytes'])} decoded, "
+        + "the largest {} × {}".format(*found["largest_texture"])
         if textures
         else ""
     )

@@ -22,4 +22,5 @@ pub use material::{Alpha, Emission, Material, MaterialId, NormalMap, Surface, Te
 pub use message::{Level, Message, SceneError, nearest};
 pub use scene::{Emits, LightNames, Placed, Scene, SceneMesh, SceneVisibility};
 pub use surface::{Look, Met, Start};
+pub use suspect::Surfaces;
 pub use tangents::Tangents;
