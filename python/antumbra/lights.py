@@ -9,12 +9,25 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, cast
 
-from antumbra._values import Color, Described, Fields, Vector, color, direction, length, vector, within
+from antumbra._values import (
+    Color,
+    Described,
+    Fields,
+    Vector,
+    color,
+    direction,
+    length,
+    number,
+    vector,
+    within,
+)
 
 if TYPE_CHECKING:
+    from datetime import datetime
     from os import PathLike
 
-    from numpy.typing import ArrayLike
+    import numpy as np
+    from numpy.typing import ArrayLike, NDArray
 
 
 @dataclass(frozen=True)
@@ -178,4 +191,63 @@ class Environment:
         return {"radiance": [scale * c for c in color("radiance", cast("Color", self.radiance))]}
 
 
-Light = Point | Spot | Directional | Sun | Rectangle | Disk | Triangle | Sphere | Environment
+@dataclass(frozen=True)
+class Sky(Described):
+    """A clear sky with its sun: a dome (Hosek and Wilkie 2012) over a diffuse ground, and a disc as a second light.
+
+    `elevation` of the sun, 0 to π/2, and `azimuth`, clockwise from north (−z) over east (+x) [rad]; `turbidity` 1 to
+    10 (2 very clear, 3 clear, 6 hazy); `albedo` of the ground, 0 to 1; `distance` of the sun in astronomical units, for
+    the size of its disc. Radiance is linear Rec. 709 of ∫ L(λ) x̄ȳz̄(λ) dλ [W·m⁻²·sr⁻¹]: its luminance times 683 is
+    cd/m².
+    """
+
+    elevation: float
+    azimuth: float = math.radians(225)
+    turbidity: float = 3.0
+    albedo: float = 0.3
+    distance: float = 1.0
+
+    @classmethod
+    def at(
+        cls, time: datetime, latitude: float, longitude: float, *, turbidity: float = 3.0, albedo: float = 0.3
+    ) -> Sky:
+        """The sky of a place, north and east positive [rad], at a `time` that knows its offset from UTC.
+
+        The sun's place is right to 0.006°, plus what the air of the day does to a low sun. Raises ValueError at night.
+
+        >>> import math
+        >>> from datetime import UTC, datetime
+        >>> noon = datetime(2026, 6, 21, 12, tzinfo=UTC)
+        >>> round(math.degrees(Sky.at(noon, math.radians(51.48), 0.0).elevation), 1)
+        62.0
+        """
+        from antumbra import _core
+
+        if time.tzinfo is None:
+            raise ValueError(f"{time.isoformat()} has no offset from UTC: +02:00 or Z is needed behind it")
+        latitude = within("latitude", latitude, -math.pi / 2, math.pi / 2)
+        longitude = within("longitude", longitude, -2 * math.pi, 2 * math.pi)
+        elevation, azimuth, distance = _core.sun_position(time.timestamp(), latitude, longitude, 1010.0, 10.0)
+        if elevation < 0:
+            below = f"{-math.degrees(elevation):.2f}° below the horizon"
+            raise ValueError(f"the sun stands {below} at {time.isoformat()}: a sky needs one above it")
+        return cls(elevation, azimuth, turbidity, albedo, distance)
+
+    def picture(self, width: int = 1024, *, sun: bool = True) -> NDArray[np.float32]:
+        """As a lat-long picture, (width/2, width, 3) float32; `sun`: its disc drawn in, the energy kept."""
+        from antumbra import _core
+
+        return _core.sky(self.fields(), int(within("width", width, 2, 1 << 14)), sun)[0]
+
+    def fields(self) -> Fields:
+        """Its numbers by name."""
+        return {
+            "elevation": [within("elevation", self.elevation, 0.0, math.pi / 2)],
+            "azimuth": [number("azimuth", self.azimuth)],
+            "turbidity": [within("turbidity", self.turbidity, 1.0, 10.0)],
+            "albedo": [within("albedo", self.albedo, 0.0, 1.0)],
+            "distance": [within("distance", self.distance, 0.9, 1.1)],
+        }
+
+
+Light = Point | Spot | Directional | Sun | Rectangle | Disk | Triangle | Sphere | Environment | Sky

@@ -73,7 +73,9 @@ def _word(name: str, value: Any) -> str:
 
 
 # What is wanted where it is not just a value.
-_WANTED = {"environment": 'a path, "sky" or "none" is needed (add_light takes an Environment)'}
+_WANTED = {
+    "environment": 'a path, "sky", "sky:elevation=30", or "none" is needed (add_light takes an Environment or a Sky)'
+}
 
 
 def _degrees(name: str, radians: Any) -> str:

@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 
 use antumbra::bsdf::{Facets, Metal};
+use antumbra::light::sky::{SUN_HALF_ANGLE, Sky};
 use antumbra::light::{Directional, Disk, Environment, Light, Point, Rectangle, Sphere, Spot, Sun, Triangle};
 use antumbra::math::{Rgb, Vec3};
 use antumbra::scene::{Emission, Material};
@@ -129,6 +130,19 @@ fn rectangle(fields: &Fields) -> PyResult<Triangles> {
     let (corner, u, v) = (fields.vec3("corner")?, fields.vec3("u")?, fields.vec3("v")?);
     let corners = [corner, corner + u, corner + u + v, corner + v];
     Ok(Triangles { vertices: corners.map(Into::into).to_vec(), indices: vec![[0, 1, 2], [0, 2, 3]] })
+}
+
+/// A sky of `antumbra.lights`, angles in radians.
+pub fn sky(fields: &Fields) -> PyResult<Sky> {
+    let one = |name| Ok::<f64, PyErr>(fields.numbers(name, 1)?[0]);
+    let half_angle = SUN_HALF_ANGLE / one("distance")?;
+    Ok(Sky {
+        elevation: one("elevation")?,
+        azimuth: one("azimuth")?,
+        turbidity: one("turbidity")?,
+        albedo: one("albedo")?,
+        half_angle,
+    })
 }
 
 /// A light of `antumbra.lights`.

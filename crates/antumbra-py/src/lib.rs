@@ -13,6 +13,7 @@ mod receivers;
 mod render;
 mod scene;
 mod settings;
+mod sky;
 mod watch;
 
 use pyo3::prelude::*;
@@ -30,6 +31,8 @@ mod _core {
     use super::scene::PyScene;
     #[pymodule_export]
     use super::settings::{builtins, check_settings, nearest, table};
+    #[pymodule_export]
+    use super::sky::{sky, sun_position};
 
     #[pymodule_init]
     fn init(module: &pyo3::Bound<'_, pyo3::types::PyModule>) -> pyo3::PyResult<()> {

@@ -1,6 +1,7 @@
 //! Rendering: Ctrl-C and the caller's own callback are looked at about twenty times a second, the lock is free between.
 
 use antumbra::light::Light;
+use antumbra::light::sky::Sky;
 use antumbra::render;
 use antumbra::scene::{Message, builtin};
 use antumbra::schedule::{Flow, Progress};
@@ -75,15 +76,27 @@ fn look(py: Python<'_>, watch: Option<&Py<PyAny>>, progress: Progress, watched: 
     }
 }
 
+/// Lights with their names that take the place of a scene's environment; `None`: the scene's own.
+type Around = Option<Vec<(String, Light)>>;
+
+/// Texels around of a sky that is given in words: 0.35° each, fine against everything in it but the sun, which is a light
+/// of its own.
+pub const SKY_WIDTH: u32 = 1024;
+
 /// The light from all around that the settings ask for (`None` = the scene's own), and what its file made us say.
-pub fn environment(py: Python<'_>, settings: &Settings) -> PyResult<(Option<Option<Light>>, Vec<Message>)> {
-    Ok(match settings.environment.as_deref() {
-        None => (None, Vec::new()),
-        Some("none") => (Some(None), Vec::new()),
-        Some("sky") => (Some(Some(builtin::default_sky())), Vec::new()),
-        Some(path) => {
+pub fn environment(py: Python<'_>, settings: &Settings) -> PyResult<(Around, Vec<Message>)> {
+    let one = |light: Light| Some(vec![("environment".into(), light)]);
+    let Some(words) = settings.environment.as_deref() else { return Ok((None, Vec::new())) };
+    if let Some(sky) = Sky::from_words(words) {
+        let lights = sky.and_then(|sky| py.detach(|| sky.lights(SKY_WIDTH)));
+        return Ok((Some(lights.map_err(errors::value)?.into()), Vec::new()));
+    }
+    Ok(match words {
+        "none" => (Some(Vec::new()), Vec::new()),
+        "sky" => (one(builtin::default_sky()), Vec::new()),
+        path => {
             let (light, messages) = environment_file(py, path)?;
-            (Some(Some(light.into())), messages)
+            (one(light.into()), messages)
         }
     })
 }

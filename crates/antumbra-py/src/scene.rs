@@ -213,6 +213,9 @@ impl PyScene {
 
     /// Adds a light.
     fn add_light(&self, name: &str, kind: &str, fields: HashMap<String, Vec<f64>>) -> PyResult<()> {
+        if kind == "Sky" {
+            return self.add_sky(name, &Fields::about(fields, self.origin));
+        }
         let light = kinds::light(kind, &Fields::about(fields, self.origin))?;
         if let Some(what) = light.fault() {
             return Err(errors::value(what));
@@ -254,6 +257,24 @@ impl PyScene {
     /// Notes and warnings: (level, place, text).
     fn messages(&self, py: Python<'_>) -> PyResult<Vec<(&'static str, String, String)>> {
         Ok(self.scene(py)?.messages.iter().map(said).collect())
+    }
+}
+
+impl PyScene {
+    /// Adds the dome and the sun of a sky: NAME and "NAME sun"; "sky" and "sun" without a name.
+    fn add_sky(&self, name: &str, fields: &Fields) -> PyResult<()> {
+        let lights = kinds::sky(fields)?.lights(crate::render::SKY_WIDTH).map_err(errors::value)?;
+        self.change(|builder| {
+            for (own, light) in lights {
+                let called = match (name, own.as_str()) {
+                    ("", own) => own.into(),
+                    (name, "sun") => format!("{name} sun"),
+                    (name, _) => name.into(),
+                };
+                builder.light(&called, light);
+            }
+            Ok(())
+        })
     }
 }
 

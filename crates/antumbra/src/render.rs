@@ -49,11 +49,11 @@ pub struct Picture {
     pub window: [u32; 4],
 }
 
-/// Renders `scene`; `environment` replaces the light from all around (`Some(None)`: none).
+/// Renders `scene`; `environment` replaces the light from all around (empty: none).
 pub fn render(
     scene: &Scene,
     settings: &Settings,
-    environment: Option<Option<Light>>,
+    environment: Option<Vec<(String, Light)>>,
     watch: &mut dyn FnMut(Progress) -> Flow,
 ) -> Result<Picture, SceneError> {
     let mut messages = settings.doubts();

@@ -12,6 +12,7 @@ pub use value::SettingValue;
 use crate::estimator::{Directions, EstimatorKind, Falloff, LightChoice, Mistake};
 use crate::film::Planes;
 use crate::light::LightPoints;
+use crate::light::sky::Sky;
 use crate::sampler::{Pairing, SamplerKind};
 use crate::scene::Start;
 use crate::sensor::{Filter, Viewing};
@@ -159,8 +160,9 @@ settings! {
         tone: Tone = Tone::Linear;
         /// every surface two-sided diffuse with this reflectance
         clay: Option<f32> as "RHO" = None, |c| c.map_or(Ok(()), |c| within(f64::from(c), 0.0, 1.0));
-        /// light from all around: a lat-long picture, sky, or none (default: the scene's own)
-        environment: Option<String> as "FILE|sky|none" = None;
+        /// light from all around: a lat-long picture; sky; a clear sky with its sun, as
+        /// sky:elevation=30:azimuth=120:turbidity=3:albedo=0.3 (degrees); or none (default: the scene's own)
+        environment: Option<String> as "FILE|sky|none" = None, |e| e.as_deref().map_or(Ok(()), sky_words);
         /// alpha masks: as the file says, or opaque
         masks: Masks = Masks::File;
         /// pictures beside the main one in an EXR, joined by commas, or all
@@ -253,6 +255,10 @@ fn unknown(name: &str) -> SettingError {
         name: name.into(),
         what: format!("there is no setting \"{name}\"{}", hint.unwrap_or_default()),
     }
+}
+
+fn sky_words(environment: &str) -> Result<(), String> {
+    Sky::from_words(environment).map_or(Ok(()), |sky| sky.map(|_| ()))
 }
 
 fn count(n: u32, most: u32, otherwise: &str) -> Result<(), String> {

@@ -11,6 +11,7 @@ mod lat_long;
 mod point;
 mod rectangle;
 pub mod sampler;
+pub mod sky;
 mod sphere;
 mod spot;
 mod square;

@@ -17,12 +17,14 @@ pub struct Sun {
     pub half_angle: f32,
     /// Radiance L_e [W·m⁻²·sr⁻¹].
     pub radiance: Rgb,
+    /// Belongs to a sky, and goes with it where a person chooses another environment.
+    pub of_sky: bool,
 }
 
 impl Sun {
     /// A sun; `to_light` of any length above 0, `half_angle` in radians.
     pub fn new(to_light: World, half_angle: f32, radiance: Rgb) -> Sun {
-        Sun { to_light: to_light.as_dvec3().normalize().as_vec3(), half_angle, radiance }
+        Sun { to_light: to_light.as_dvec3().normalize().as_vec3(), half_angle, radiance, of_sky: false }
     }
 
     /// 1 − cos α.
@@ -96,6 +98,10 @@ impl LightKind for Sun {
 
     fn is_infinite(&self) -> bool {
         true
+    }
+
+    fn is_environment(&self) -> bool {
+        self.of_sky
     }
 
     fn fault(&self) -> Option<String> {

@@ -110,7 +110,7 @@ pub fn explain(
     scene: &Scene,
     [x, y]: [u32; 2],
     settings: &Settings,
-    environment: Option<Option<Light>>,
+    environment: Option<Vec<(String, Light)>>,
 ) -> Result<Explained, SceneError> {
     check(scene, settings)?;
     let mut messages = settings.doubts();

@@ -180,15 +180,15 @@ impl Scene {
         if let Some(unknown) = names.iter().find(|n| !self.light_names.names.contains(n)) {
             return Err(unknown.clone());
         }
-        Ok(self.with_lights(|name, _| names.iter().any(|n| n == name), None))
+        Ok(self.with_lights(|name, _| names.iter().any(|n| n == name), Vec::new()))
     }
 
-    /// The same scene under another environment; `None` = without one.
-    pub fn under(&self, environment: Option<Light>) -> Scene {
+    /// The same scene with other light from all around, each with its name; none: without.
+    pub fn under(&self, environment: Vec<(String, Light)>) -> Scene {
         self.with_lights(|_, light| !light.is_environment(), environment)
     }
 
-    fn with_lights(&self, keep: impl Fn(&str, &Light) -> bool, more: Option<Light>) -> Scene {
+    fn with_lights(&self, keep: impl Fn(&str, &Light) -> bool, more: Vec<(String, Light)>) -> Scene {
         let mut kept = Vec::new();
         let mut names = self.light_names.clone();
         for (name, slot) in names.names.iter().zip(&mut names.slots) {
@@ -201,8 +201,8 @@ impl Scene {
                 }
             }
         }
-        if let Some(light) = more {
-            names.names.push("environment".into());
+        for (name, light) in more {
+            names.names.push(name);
             names.slots.push(kept.len() as u32);
             kept.push(light);
         }

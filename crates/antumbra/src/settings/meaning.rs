@@ -34,10 +34,10 @@ impl Settings {
     }
 
     /// The scene with the lights that the settings leave on; `environment` replaces the light from all around
-    /// (`Some(None)`: none).
-    pub fn lit(&self, scene: &Scene, environment: Option<Option<Light>>) -> Result<Scene, SceneError> {
+    /// (empty: none).
+    pub fn lit(&self, scene: &Scene, environment: Option<Vec<(String, Light)>>) -> Result<Scene, SceneError> {
         let scene = match environment {
-            Some(light) => scene.under(light),
+            Some(lights) => scene.under(lights),
             None => scene.clone(),
         };
         if self.light.is_empty() {

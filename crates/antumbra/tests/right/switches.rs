@@ -44,13 +44,13 @@ fn lights_add_up() {
 fn another_sky_takes_the_place_of_the_first() {
     let scene = rooms::under_sky().build().unwrap();
     let mut judge = Judge::default();
-    let under = |sky: Option<Option<Light>>, light: &[&str], seed| {
+    let under = |sky: Option<Vec<(String, Light)>>, light: &[&str], seed| {
         let light = light.iter().map(|s| s.to_string()).collect();
         let s = Settings { seed, light, bounces: 2, ..small(Path) };
         whole(&render(&scene, &s, sky, &mut |_| Flow::Continue).unwrap(), 1)
     };
-    judge.agree("without a sky".into(), under(Some(None), &[], 1), under(None, &["lamp"], 2));
-    let white = || Some(Some(Environment::constant(Rgb::WHITE).into()));
+    judge.agree("without a sky".into(), under(Some(Vec::new()), &[], 1), under(None, &["lamp"], 2));
+    let white = || Some(vec![("environment".into(), Environment::constant(Rgb::WHITE).into())]);
     let (both, lamp, sky) =
         (under(white(), &[], 3), under(None, &["lamp"], 4), under(white(), &["environment"], 5));
     judge.agree("under a white sky".into(), both, [lamp[0] + sky[0], lamp[1].hypot(sky[1])]);
