@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from functools import cache
+from typing import Any
 
 import numpy as np
 
@@ -11,6 +12,13 @@ import antumbra as am
 from antumbra.lecture.scenes import SceneOf, square
 
 HEIGHT, HALF = 1.25, 2.0
+# The camera: in the room, with floor, light and three walls in view.
+VIEW: dict[str, Any] = {
+    "eye": (0.0, 0.62, 1.95),
+    "look_at": (0.0, 0.5, -1.0),
+    "up": (0.0, 1.0, 0.0),
+    "fov": 1.15,
+}
 # Three balls that do not stand between the middle of the floor and the light.
 _BALLS = ((-1.2, -0.75), (0.55, -1.3), (1.35, -0.1))
 

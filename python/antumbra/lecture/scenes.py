@@ -77,6 +77,8 @@ def _pillars_light(size: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 
 PILLARS_LIGHT = _pillars_light(2.0)
+# A camera near the pillars, with all of their shadows in view.
+PILLARS_VIEW: dict[str, Any] = {"eye": (-7.4, 5.6, 5.4), "look_at": (0.3, 0.55, 0.3), "fov": 0.5}
 
 
 def _pillars_and(corner: np.ndarray, u: np.ndarray, v: np.ndarray, name: str) -> am.Scene:

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from antumbra.lecture.measures.points import UP
+from antumbra.lecture.measures.ratio import ratio
 from antumbra.lecture.measures.replicates import mean_of
 from antumbra.lecture.quantity import Quantity
 from antumbra.scene import Scene
@@ -55,6 +56,22 @@ def sum_over_area(scene: Scene, point: Any, count: int, seed: int) -> Quantity:
     """Ω [sr] as Σ cos θ′ dA / r² over `count` random points of the light."""
     _, omega = pieces(scene, point, np.random.default_rng((seed, 2)).random((count, 2)))
     return mean_of(omega.reshape(_GROUPS, -1).mean(1), "sr", f"{count:,} points")
+
+
+def both_ways(scene: Scene, exact: float, count: int, seed: int, name: str) -> dict[str, Quantity]:
+    """Ω of the light from the origin in both ways, and the sum over its area against the `exact` Ω.
+
+    share-`name`: of the directions; directions-`name`: that, times 2π; area-`name`; over-`name`: that over the exact.
+    """
+    share = share_of_directions(scene, np.zeros(3), count, seed)
+    area = sum_over_area(scene, np.zeros(3), count, seed)
+    omega = Quantity(2 * math.pi * share.value, 2 * math.pi * share.error, "sr")
+    return {
+        f"share-{name}": share,
+        f"directions-{name}": omega,
+        f"area-{name}": area,
+        f"over-{name}": ratio(area, Quantity(exact)),
+    }
 
 
 def sum_over_patches(scene: Scene, point: Any, side: int) -> float:

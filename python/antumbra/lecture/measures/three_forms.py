@@ -1,0 +1,112 @@
+"""Three forms of one integral, sampled at the middle of the floor of the low room: how they scatter, what they cost."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+import antumbra as am
+from antumbra.lecture import low_room
+from antumbra.lecture.measures.maps import box_mean
+from antumbra.lecture.measures.one_sample import Samples, moments_of_light_points, one_sample
+from antumbra.lecture.measures.ratio import ratio
+from antumbra.lecture.measures.replicates import mean_of
+from antumbra.lecture.quantity import Quantity
+from antumbra.lecture.run import Run
+from antumbra.lecture.square_lights import square_light
+from antumbra.lecture.variant import Pick
+
+# What is sampled, and the options of `render` that do it.
+FORMS = {"hemisphere": "directions", "surfaces": "all surfaces", "area": "the light"}
+ONE: dict[str, dict[str, Any]] = {
+    "hemisphere": {"estimator": "hemisphere", "directions": "cosine"},
+    "surfaces": {"estimator": "surfaces"},
+    "area": {"estimator": "area", "light_points": "area"},
+}
+# Between these both variances are the same; a line through their logarithms is 0.005 % off there.
+CROSSING = (1.4, 1.5)
+# From the corner that the light reaches [m].
+DISTANCES = (0.1, 0.2, 0.4, 0.8)
+
+
+def at_the_middle(run: Run, ratios: Sequence[float]) -> dict[str, Quantity]:
+    """Variances in units of E² (`form`-`ratio`), shares of samples that bring light (share-…), and what follows.
+
+    even: where points of the light and directions scatter alike; surfaces, areas: mean square of all surfaces over
+    that of the light, and their areas; time-…: of one sample, the light being 1; corner-…: `near_a_corner`.
+    """
+    samples = {(form, at): _samples(run, form, at, stream) for stream, at in enumerate(ratios) for form in FORMS}
+    light, everything = low_room.areas(1.0)
+    found = {
+        "even": _even(samples),
+        "surfaces": ratio(samples["surfaces", 1.0].moment, samples["area", 1.0].moment),
+        "areas": Quantity(everything / light),
+    }
+    for (form, at), each in samples.items():
+        # Of E / L_e, in units of its square: the light has the radiance 1 / ratio².
+        scale = (at**2 / (np.pi * low_room.filled(at))) ** 2
+        found[f"{form}-{at}"] = mean_of(scale * each.variances)
+        found[f"share-{form}-{at}"] = each.share
+    for form in FORMS:
+        cost = [samples[form, at].seconds / samples["area", at].seconds for at in ratios]
+        found[f"time-{form}"] = _median(cost, "of the time of a point of the light")
+    return found | near_a_corner(run)
+
+
+def near_a_corner(run: Run) -> dict[str, Quantity]:
+    """Mean square of a point of a light that reaches a corner, its radiance 1, from `DISTANCES`; and its slope."""
+    scene, side = am.Scene("corner"), run.pick(Pick(128, 512))
+    scene.add_light(square_light(4.0, 0.0))
+    moments = [
+        moments_of_light_points(scene, (2.0, -d, 0.0), (-1.0, 0.0, 0.0), side, run.seeded(1)) for d in DISTANCES
+    ]
+    found = {f"corner-{d}": mean_of(each) for d, each in zip(DISTANCES, moments, strict=True)}
+    return found | {"corner": mean_of(np.polyfit(np.log(DISTANCES), np.log(moments), 1)[0])}
+
+
+def scatter(run: Run, form: str, at: float, rays: int) -> NDArray[np.float64]:
+    """Variance of one sample at each pixel of a picture of `rays` of them, a mean over 5 × 5 pixels."""
+    error = run.image(f"{form}-{at}").standard_error
+    assert error is not None
+    return box_mean(error[..., 1].astype(np.float64) ** 2 * rays, 2)
+
+
+def exact(form: str, at: ArrayLike) -> NDArray[np.float64]:
+    """The closed forms: variance of one sample over E², for radii of the light over the height."""
+
+    def one(r: float) -> float:
+        light, everything = low_room.areas(r)
+        mean, points = np.pi * low_room.filled(r), low_room.variance_of_points(r)
+        if form == "hemisphere":
+            return float(low_room.variance_of_directions(r) / mean**2)
+        return float((everything / light if form == "surfaces" else 1.0) * (points / mean**2 + 1) - 1)
+
+    return np.array([one(float(r)) for r in np.atleast_1d(at)])
+
+
+def _samples(run: Run, form: str, at: float, stream: int) -> Samples:
+    close = at in CROSSING if form != "surfaces" else at == 1.0
+    count = run.pick(Pick(2**17, 2**20) if close else Pick(2**14, 2**18))
+    run.rays += count
+    scene = run.scene(low_room.low_room(at))
+    return one_sample(scene, (0.0, 0.0, 0.0), count, run.seeded(stream), **ONE[form])
+
+
+def _even(samples: Mapping[tuple[str, float], Samples]) -> Quantity:
+    """The share of the hemisphere, by a line through ln of the ratio of the variances in each group."""
+    over = np.log([samples["area", r].variances / samples["hemisphere", r].variances for r in CROSSING])
+    slope, height = np.polyfit(np.log(CROSSING), over, 1)
+    note = "R² / (R² + h²) where both variances are the same"
+    return mean_of(1 / (1 + np.exp(2 * height / slope)), "%", note)
+
+
+def _median(values: Sequence[float], note: str) -> Quantity:
+    """The median, and the 95 % interval of its order statistics."""
+    ordered = np.sort(values)
+    # Of n values, those with these numbers hold the median in at least 95 % of cases: n/2 ± 0.98 √n.
+    reach = int(np.ceil(0.98 * np.sqrt(len(ordered))))
+    low, high = ordered[max(0, len(ordered) // 2 - reach)], ordered[min(len(ordered) - 1, len(ordered) // 2 + reach)]
+    return Quantity(float(np.median(ordered)), float(high - low) / 2, "", note)
