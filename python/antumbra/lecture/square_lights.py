@@ -8,9 +8,11 @@ from functools import cache
 import antumbra as am
 from antumbra.lecture.scenes import SceneOf, square
 
-# Three boards between light and floor: height of each over the floor, middle and half of its width in z.
+# Three boards between light and floor: height of each over the floor, middle and half of its width in z. Their
+# shadows lie side by side, in the order of d₂/d₁: from the occluder to the floor over from the light to the occluder.
 LIGHT_HEIGHT = 2.0
-BOARDS = ((0.25, 1.08, 0.25), (0.5, -0.925, 0.25), (1.0, 0.0, 0.35))
+BOARDS = ((0.25, 1.05, 0.25), (0.5, 0.3, 0.25), (1.0, -0.42, 0.3))
+DISTANCE_RATIOS = {"1/7": 1 / 7, "1/3": 1 / 3, "1": 1.0}
 
 
 @cache

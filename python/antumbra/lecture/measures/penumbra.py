@@ -7,10 +7,18 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from antumbra.lecture.measures.points import irradiance_at
+from antumbra.lecture.measures.ratio import excess, ratio
+from antumbra.lecture.measures.replicates import mean_of
+from antumbra.lecture.quantity import Quantity
 from antumbra.lecture.run import Run
+from antumbra.lecture.square_lights import BOARDS, DISTANCE_RATIOS, LIGHT_HEIGHT, boards_under_square
+from antumbra.lecture.variant import Pick
 from antumbra.scene import Scene
 
 Place = tuple[float, float, float]
+# Points of the line on which the widths of the boards' penumbras are counted.
+_COUNT = Pick(1024, 16384)
 
 
 def penumbra_widths(
@@ -30,3 +38,49 @@ def penumbra_widths(
         widths.append(step * np.count_nonzero(blocked[0] != blocked[1]))
     run.rays += 32 * count
     return np.array(widths)
+
+
+def board_widths(run: Run, sizes: Sequence[float], doubled: Sequence[tuple[float, float]]) -> dict[str, Quantity]:
+    """Widths of the penumbra of each of the three boards, w`size`-`board` [m], for edges `sizes` of the light.
+
+    share: over the prediction s d₂/d₁, of all of them; doubled: over the width at half the edge; boards: the last
+    board over the first, at the largest; below: how the floor's light changes from a point light to that.
+    """
+    ratios = list(DISTANCE_RATIOS.values())
+    width = {(s, b): _board_widths(run, s, b, ratios[b]) for s in sizes for b in range(len(BOARDS))}
+    twice = [width[b, n] / width[a, n] for a, b in doubled for n in range(len(BOARDS))]
+    most = sizes[-1]
+    point, square = (_unshadowed(run, s) for s in (0.0, most))
+    return {
+        **{f"w{s:g}-{b}": _width(w, 2 * _half(ratios[b]) / run.pick(_COUNT)) for (s, b), w in width.items()},
+        "doubled": mean_of(np.mean(twice, axis=0)),
+        "share": mean_of(np.mean([w / (s * ratios[b]) for (s, b), w in width.items()], axis=0)),
+        "boards": mean_of(width[most, len(BOARDS) - 1] / width[most, 0]),
+        "below": excess(ratio(square, point)),
+    }
+
+
+def _board_widths(run: Run, size: float, board: int, distances: float) -> NDArray[np.float64]:
+    """16 replicates, on the line across the edge that lies in the middle of a board's shadow."""
+    height, middle, _ = BOARDS[board]
+    ends = [(side * size / 2, LIGHT_HEIGHT, 0.0) for side in (-1, 1)]
+    half, row = _half(distances), middle / (1 - height / LIGHT_HEIGHT)
+    line = ((-half, 0.0, row), (half, 0.0, row))
+    return penumbra_widths(run, run.scene(boards_under_square(size)), line, ends, run.pick(_COUNT), board)
+
+
+def _half(distances: float) -> float:
+    """Half of the line on which a penumbra is looked for [m]."""
+    return 0.75 * distances
+
+
+def _width(widths: NDArray[np.float64], step: float) -> Quantity:
+    """The mean; replicates that count alike leave 3/16 of a step open (none of 16: less than 3/16 at 95 %)."""
+    mean = mean_of(widths, "m")
+    return Quantity(mean.value, max(mean.error, 3 / len(widths) * step), mean.unit)
+
+
+def _unshadowed(run: Run, size: float) -> Quantity:
+    """Irradiance of the floor straight below the light, as if there were no boards."""
+    scene, options = run.scene(boards_under_square(size)), {"shadows": "off", "light_points": "area"}
+    return irradiance_at(scene, (0, 0, 0), 2**18, run.seeded(1), **options)

@@ -24,9 +24,16 @@ def table_of(
     foot: Sequence[str] = (),
     fine: Sequence[int] = (),
     note: str = "",
+    bare: bool = False,
 ) -> Table:
-    """A table with a row of quantities for each name; an error is written with one digit."""
-    text = [[name, *(c if isinstance(c, str) else f"{c:1}" for c in cells)] for name, cells in rows.items()]
+    """A table with a row of quantities for each name, errors with one digit; `bare`: units stand in the head."""
+
+    def cell(of: Quantity | str) -> str:
+        if isinstance(of, str):
+            return of
+        return " ± ".join(filter(None, of.number(1))) if bare else f"{of:1}"
+
+    text = [[name, *map(cell, cells)] for name, cells in rows.items()]
     return Table(head, text, caption, foot, fine, note)
 
 

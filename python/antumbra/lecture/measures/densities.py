@@ -1,0 +1,47 @@
+"""Densities on a light: where they put points, and what their pictures are worth."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from antumbra.lecture.measures.noise import luminances
+from antumbra.lecture.measures.ratio import excess, ratio
+from antumbra.lecture.measures.replicates import mean_of, of_interval
+from antumbra.lecture.quantity import Quantity
+from antumbra.lecture.run import Run
+from antumbra.scene import Scene
+from antumbra.study import statistics
+
+
+def against(run: Run, names: Collection[str], other: str, strip: str) -> dict[str, Quantity]:
+    """The mean of each variant less that of `other`, in % of it; noise-…: its variance over that of the first.
+
+    missing: what the light of the variant `strip` would take away.
+    """
+    truth, left_out = (mean_of(luminances(run, key).mean((1, 2))) for key in (other, strip))
+    means = {name: mean_of(luminances(run, name).mean((1, 2))) for name in names}
+    noise = {name: of_interval(statistics.variance(luminances(run, name))) for name in names}
+    uniform, missing = noise[next(iter(names))], ratio(left_out, truth)
+    return {
+        **{name: excess(ratio(mean, truth)) for name, mean in means.items()},
+        **{f"noise-{name}": ratio(noise[name], uniform) for name in names},
+        "missing": Quantity(-missing.value, missing.error, "%"),
+    }
+
+
+def drawn(
+    scene: Scene, point: Sequence[float], light: Sequence[NDArray[np.float64]], how: str
+) -> NDArray[np.float64]:
+    """How densely points of a `light` (corner and two sides) are drawn from a point: (16, 16), 1 = uniform."""
+    corner, u, v = light
+    grid = (np.stack(np.meshgrid(*[np.arange(256)] * 2), -1).reshape(-1, 2) + 0.5) / 256
+    points = np.tile(np.asarray(point, np.float64), (len(grid), 1))
+    numbers = np.column_stack([np.full(len(grid), 0.1), grid])
+    found = scene.sample_light(points, (0.0, 1.0, 0.0), numbers, light_points=how)
+    at = [(found.target - corner) @ side / (side @ side) for side in (u, v)]
+    counts = np.histogram2d(at[1], at[0], bins=16, range=[[0, 1], [0, 1]])[0]
+    density: NDArray[np.float64] = counts * 256 / len(grid)
+    return density
