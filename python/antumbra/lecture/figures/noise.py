@@ -8,86 +8,83 @@ import numpy as np
 
 from antumbra.lecture.figure import Claim, Equation, Figure, Number, Pick, Question, Variant
 from antumbra.lecture.measures import decompose
+from antumbra.lecture.measures.noise import luminances
 from antumbra.lecture.measures.replicates import mean_of, of_interval
-from antumbra.lecture.pictures import luminance
 from antumbra.lecture.quantity import Quantity
 from antumbra.lecture.run import Run
-from antumbra.lecture.scenes import half_hidden_disk, two_windows
-from antumbra.lecture.stages import Panel, Part, Row, Table, Tabs
+from antumbra.lecture.scenes import PILLARS_VIEW, half_hidden_disk, two_windows
+from antumbra.lecture.stages import Part, Picture
+from antumbra.lecture.stages.quantities import table_of, tabs_of
 from antumbra.study import statistics
 
-NAMES = {
-    "light": "which light", "visibility": "visibility", "geometry": "geometry", "interaction": "V with g",
-    "covariances": "covariances", "place": "pixel",
+# Parts of the variance that are squares, and 2 Cov of each two of V, g and V·g.
+SQUARES = {
+    "light": "which light", "visibility": "visibility", "geometry": "geometry", "interaction": "V with g", "place": "pixel",
 }  # fmt: skip
-SIZE, VIEW = Pick((60, 42), (240, 168)), {"eye": (-7.4, 5.6, 5.4), "look_at": (0.3, 0.55, 0.3), "fov": 0.5}
-ONE = {
+PAIRS = {
+    "visibility_geometry": "2 Cov(V, g)", "visibility_interaction": "2 Cov(V, V with g)", "geometry_interaction": "2 Cov(g, V with g)",
+}  # fmt: skip
+SIZE, PARTS = Pick((60, 42), (240, 168)), 4
+ONE = PILLARS_VIEW | {
     "estimator": "area", "lights": "uniform", "light_points": "area", "sampler": "random", "filter": "box",
     "viewing_rays": 1, "shadow_rays": 1, "size": SIZE,
 }  # fmt: skip
 
 
-def _parts(run: Run, replicate: int) -> decompose.Parts:
-    scene, count = run.scene(two_windows()), run.pick(Pick(8, 16))
-    found: decompose.Parts = run.once(
-        replicate,
-        lambda: decompose.of_picture(scene, run.pick(SIZE), 4, count, run.seeded(replicate), **VIEW),
-    )
+def _parts(run: Run) -> list[decompose.Parts]:
+    """Independent estimates of the parts."""
+    scene, count, size = run.scene(two_windows()), run.pick(Pick(8, 16)), run.pick(SIZE)
+    found: list[decompose.Parts] = run.once("parts", lambda: [
+        decompose.of_picture(scene, size, 4, count, run.seeded(n), **PILLARS_VIEW) for n in range(PARTS)
+    ])  # fmt: skip
     return found
 
 
-def _shares(run: Run) -> dict[str, Quantity]:
-    all_parts = [_parts(run, r) for r in range(4)]
-    each = {n: [getattr(p, n).mean() / p.whole.mean() for p in all_parts] for n in NAMES}
-    return {name: mean_of(values, "%") for name, values in each.items()}
-
-
 def _measure(run: Run) -> Mapping[str, Quantity]:
-    whole = statistics.mean([_parts(run, r).whole.mean() for r in range(4)])
-    rendered = statistics.variance([luminance(image.pixels) for image in run.images("one")])
-    half = decompose.of_point(
-        run.scene(half_hidden_disk()), (0, 0, 0), (0, 1, 0), run.pick(Pick(2**17, 2**21)), run.seeded(9)
-    )
-    return _shares(run) | {
+    names = [*SQUARES, *PAIRS, "covariances"]
+    whole = statistics.mean([parts.whole.mean() for parts in _parts(run)])
+    rendered = statistics.variance(luminances(run, "one"))
+    count, scene = run.pick(Pick(2**17, 2**21)), run.scene(half_hidden_disk())
+    half = decompose.of_point(scene, (0, 0, 0), (0, 1, 0), count, run.seeded(9))
+    return {
+        **{n: mean_of([getattr(p, n).mean() / p.whole.mean() for p in _parts(run)], "%") for n in names},
         "adds": of_interval(statistics.ratio(rendered, whole)),
         "half": mean_of(half.whole),
         "seen": mean_of(half.visibility),
     }
 
 
-def _stage(run: Run, measured: Mapping[str, Quantity]) -> list[Part]:
-    found, white = _parts(run, 0), run.white("one", share=98)
-    high = float(np.quantile(np.sqrt(found.whole), 0.99))
-    total = run.map(
-        np.sqrt(found.whole),
-        "The noise of all causes together.",
-        "all together",
-        name="all",
-        ramp="amber",
-        high=high,
-    )
+def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
+    parts, white = _parts(run)[0], run.white("one", share=98)
+    high = float(np.quantile(np.sqrt(parts.whole), 0.99))
+
+    def shown(name: str, words: str, signed: bool = False) -> Picture:
+        part, ramp, low = getattr(parts, name), "signed" if signed else "amber", -high if signed else 0.0
+        root, share = np.sign(part) * np.sqrt(np.abs(part)), "all" if name == "whole" else f"{found[name]:1}"
+        return run.map(root, f"{words}: {share} of the variance.", f"{words}: {share}", name=name.replace("_", "-"),
+                       ramp=ramp, low=low, high=high, noise=True)  # fmt: skip
+
     one = run.picture(run.image("one").pixels, "One shadow ray a pixel: noise everywhere.", "one shadow ray", name="one",
                       white=white, noise=True)  # fmt: skip
-    panels = []
-    for name, text in NAMES.items():
-        part, caption = getattr(found, name), f"this cause: {measured[name]:1}"
-        root = np.sign(part) * np.sqrt(np.abs(part))
-        ramp, low = ("signed", -high) if name == "covariances" else ("amber", 0.0)
-        alt = f"{text}: {measured[name]:v} of the variance."
-        picture = run.map(root, alt, caption, name=name, ramp=ramp, low=low, high=high, noise=True)
-        panels.append(Panel(name, text, [Row([one, total, picture])]))
-    note = "Maps: standard deviation of one sample, all on one scale; covariances: orange adds, blue takes away. "
-    rows = [[NAMES[name], f"{share:1}"] for name, share in measured.items() if name in NAMES]
-    table = Table(("part of the variance", "share"), rows, "Shares of the variance, mean over the picture", foot=("sum", "100 %"),
-        note=note + "Four independent estimates of 16 places a pixel; each ± is of that row alone.")  # fmt: skip
-    return [Tabs("cause", "Cause of the noise", panels), table]
+    total = shown("whole", "all together")
+    tabs = tabs_of("cause", "Cause of the noise", {
+        **{name: (words, [one, total, shown(name, words)]) for name, words in SQUARES.items()},
+        "covariances": ("covariances", [shown(name, words, signed=True) for name, words in PAIRS.items()]),
+    })  # fmt: skip
+    rows = {words: (found[name],) for name, words in (SQUARES | PAIRS).items()}
+    table = table_of(
+        ("part of the variance", "share"), rows, "Shares of the variance, mean over the picture", foot=("sum", "100 %"),
+        note="Maps: standard deviation of one sample, all on one scale; covariances: orange adds, blue takes away. "
+        f"{PARTS} independent estimates of 16 places a pixel; each ± is of that row alone.",
+    )  # fmt: skip
+    return [tabs, table]
 
 
 FIGURE = Figure(
     number=14, chapter=4, title="Causes of noise", seconds=Pick(7, 90),
     question=Question("Two equal windows light the pillars. A sample draws one of them, and a point on it. What makes most of its noise?",
                       ("whether the point is seen", "which window it is on", "where on the window it lies"), 1),
-    variants=[Variant("one", two_windows(), ONE | VIEW, Pick(48, 128))],
+    variants=[Variant("one", two_windows(), ONE, Pick(48, 128))],
     measure=_measure, stage=_stage,
     answer=Number("light", "So much of the variance is the choice of the window. Visibility makes {visibility:1}, geometry {geometry:1}: "
         "ask both windows first."),

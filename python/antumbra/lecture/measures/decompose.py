@@ -27,12 +27,21 @@ class Parts(NamedTuple):
     """v̄² Var g"""
     interaction: NDArray[np.float64]
     """Var (V − v̄)(g − ḡ)"""
-    covariances: NDArray[np.float64]
-    """2 Cov of each two of these three; may be negative."""
+    visibility_geometry: NDArray[np.float64]
+    """2 Cov of ḡ(V − v̄) and v̄(g − ḡ); may be negative, as the next two."""
+    visibility_interaction: NDArray[np.float64]
+    """2 Cov of ḡ(V − v̄) and (V − v̄)(g − ḡ)"""
+    geometry_interaction: NDArray[np.float64]
+    """2 Cov of v̄(g − ḡ) and (V − v̄)(g − ḡ)"""
     light: NDArray[np.float64]
     """Var of E[X | light]"""
     place: NDArray[np.float64]
     """Var of E[X | place in the pixel]"""
+
+    @property
+    def covariances(self) -> NDArray[np.float64]:
+        """The three covariances together."""
+        return self.visibility_geometry + self.visibility_interaction + self.geometry_interaction
 
     @property
     def whole(self) -> NDArray[np.float64]:
@@ -56,16 +65,18 @@ def parts(v: NDArray[Any], g: NDArray[Any]) -> Parts:
     by_place = means.mean(-1)
     place = by_place.var(-1, ddof=1) - (noise / lights).mean(-1) if places > 1 else np.zeros(light.shape)
     without = np.mean([_split(np.delete(v, n, -1), np.delete(g, n, -1)) for n in range(samples)], axis=0)
-    visibility, geometry, interaction = samples * _split(v, g) - (samples - 1) * without
-    covariances = inside.mean((-1, -2)) - visibility - geometry - interaction
-    return Parts(visibility, geometry, interaction, covariances, light, place)
+    return Parts(*(samples * _split(v, g) - (samples - 1) * without), light, place)
 
 
 def _split(v: NDArray[Any], g: NDArray[Any]) -> NDArray[np.float64]:
-    """ḡ² Var V, v̄² Var g, Var (V − v̄)(g − ḡ), each averaged over places and lights: (3, …)."""
+    """ḡ² Var V, v̄² Var g, Var (V − v̄)(g − ḡ), and 2 Cov of each two, averaged over places and lights: (6, …)."""
     v_mean, g_mean = v.mean(-1, keepdims=True), g.mean(-1, keepdims=True)
-    terms = g_mean * (v - v_mean), v_mean * (g - g_mean), (v - v_mean) * (g - g_mean)
-    return np.stack([term.var(-1, ddof=1).mean((-1, -2)) for term in terms])
+    # The first two have the mean 0.
+    visibility, geometry, product = g_mean * (v - v_mean), v_mean * (g - g_mean), (v - v_mean) * (g - g_mean)
+    interaction = product - product.mean(-1, keepdims=True)
+    pairs = (visibility, geometry), (visibility, interaction), (geometry, interaction)
+    squares = [a * a for a in (visibility, geometry, interaction)] + [2 * a * b for a, b in pairs]
+    return np.stack([each.sum(-1).mean((-1, -2)) for each in squares]) / (v.shape[-1] - 1)
 
 
 def of_picture(scene: Scene, size: tuple[int, int], side: int, count: int, seed: int, **camera: Any) -> Parts:
