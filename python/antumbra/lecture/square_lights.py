@@ -38,6 +38,19 @@ def boards_under_square(size: float, intensity: float = 4.0) -> SceneOf:
     return build
 
 
+@cache
+def floor_under_square(size: float, height: float) -> SceneOf:
+    """A floor of albedo 0.5 under a square light of edge `size` and radiance 1 at `height`, nothing between."""
+
+    def build() -> am.Scene:
+        scene = am.Scene("square-light")
+        square(scene, 0.0, 4.0, am.materials.Diffuse(0.5))
+        scene.add_light(square_light(size, height), name="light")
+        return scene
+
+    return build
+
+
 def square_light(size: float, height: float, radiance: float = 1.0) -> am.lights.Rectangle:
     """A square of edge `size` around the y axis that faces down from `height`."""
     half = size / 2

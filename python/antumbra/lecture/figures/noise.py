@@ -60,8 +60,8 @@ def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
 
     def shown(name: str, words: str, signed: bool = False) -> Picture:
         part, ramp, low = getattr(parts, name), "signed" if signed else "amber", -high if signed else 0.0
-        root, share = np.sign(part) * np.sqrt(np.abs(part)), "all" if name == "whole" else f"{found[name]:1}"
-        return run.map(root, f"{words}: {share} of the variance.", f"{words}: {share}", name=name.replace("_", "-"),
+        root, share = np.sign(part) * np.sqrt(np.abs(part)), f": {found[name]:1}" if name in found else ""
+        return run.map(root, f"Standard deviation by pixel, {words}{share}.", f"{words}{share}", name=name.replace("_", "-"),
                        ramp=ramp, low=low, high=high, noise=True)  # fmt: skip
 
     one = run.picture(run.image("one").pixels, "One shadow ray a pixel: noise everywhere.", "one shadow ray", name="one",
@@ -86,14 +86,13 @@ FIGURE = Figure(
                       ("whether the point is seen", "which window it is on", "where on the window it lies"), 1),
     variants=[Variant("one", two_windows(), ONE, Pick(48, 128))],
     measure=_measure, stage=_stage,
-    answer=Number("light", "So much of the variance is the choice of the window. Visibility makes {visibility:1}, geometry {geometry:1}: "
-        "ask both windows first."),
+    answer=Number("light", "of the variance is the choice of the window, and only {visibility:1} visibility: ask both windows first."),
     equation=Equation(
-        [(r"\text{Var} X = \overline{\text{Var}(V g)} + \mark{\text{Var} \, \bar{x}_{\text{light}}} + \text{Var} \, \bar{x}_{\text{pixel}}",
+        [(r"\text{Var} X = \text{E} \, \text{Var}(V g) + \mark{\text{Var} \, \bar{x}_{\text{light}}} + \text{Var} \, \bar{x}_{\text{pixel}}",
           "Var X = mean of Var(V g) + variance of the means of the lights + variance of the means of the places in the pixel"),
          (r"\text{Var}(V g) = \bar{g}^2 \, \text{Var} V + \bar{v}^2 \, \text{Var} g + \text{Var}\big((V - \bar{v})(g - \bar{g})\big) + 2 \textstyle\sum \text{Cov}",
           "Var(V g) = ḡ² Var V + v̄² Var g + Var((V − v̄)(g − ḡ)) + 2 · the sum of the covariances")],
-        "Marked: the choice of the light. V and g = f L cos θ cos θ′ / (r² pdf) hang on the same point, so their product splits in four.",
+        "Marked: the choice of the light. E: mean over lights and places. V and g = f L cos θ cos θ′ / (r² pdf) hang on the same point, so their product splits in four.",
     ),
     claims=[
         Claim("The parts add up to the variance of the rendered picture.", "adds", near=1.0, within=0.05, main=True,
