@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 import antumbra as am
+from antumbra.lecture.variant import Pick
 
 SceneOf = Callable[[], am.Scene]
 
@@ -79,6 +80,13 @@ def _pillars_light(size: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 PILLARS_LIGHT = _pillars_light(2.0)
 # A camera near the pillars, with all of their shadows in view.
 PILLARS_VIEW: dict[str, Any] = {"eye": (-7.4, 5.6, 5.4), "look_at": (0.3, 0.55, 0.3), "fov": 0.5}
+# From there, one viewing ray through the centre of each pixel: all the noise comes from the light.
+CENTRED = PILLARS_VIEW | {
+    "estimator": "area",
+    "viewing": "centre",
+    "viewing_rays": 1,
+    "size": Pick((96, 68), (240, 168)),
+}
 
 
 def _pillars_and(corner: np.ndarray, u: np.ndarray, v: np.ndarray, name: str) -> am.Scene:

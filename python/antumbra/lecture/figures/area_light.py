@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import partial
 
 import numpy as np
 
@@ -10,9 +11,9 @@ from antumbra.lecture.figure import Claim, Equation, Figure, Number, Pick, Quest
 from antumbra.lecture.measures.penumbra import board_widths
 from antumbra.lecture.quantity import Quantity
 from antumbra.lecture.run import Run
-from antumbra.lecture.sketches.area_light import from_the_side
+from antumbra.lecture.sketches.area_light import frame
 from antumbra.lecture.square_lights import DISTANCE_RATIOS, boards_under_square, irradiance_under
-from antumbra.lecture.stages import Frame, Part, Plot, Strip
+from antumbra.lecture.stages import Part, Plot, Strip
 from antumbra.lecture.stages.quantities import curve_of, table_of
 from antumbra.study.plot import error_curves
 
@@ -27,26 +28,16 @@ FLOOR = {
 VIEW = FLOOR | {"eye": (2.9, 2.3, 2.0), "look_at": (-0.2, 0.2, 0.2), "up": (0.0, 1.0, 0.0), "fov": 0.78}
 
 
-def _frame(run: Run, size: float, white: float) -> Frame:
-    says = ", ".join(f"{size * r:.2f}" for r in DISTANCE_RATIOS.values()) if size else "no penumbra"
-    pictures = [
-        run.picture(f"floor-{size}", f"The receiver under a light of edge {size:g} m: penumbras {says} m wide.", white=white),
-        run.picture(f"view-{size}", f"The three boards over the receiver, light of edge {size:g} m.", white=white),
-    ]  # fmt: skip
-    word = f"s = {size:g} m: penumbra {size:.2f} m wide at d₂ = d₁" if size else "a point light: no penumbra"
-    return Frame(f"{size:g}", word, pictures, f"s = {size:g} m" if size else "point", "", from_the_side(size))
-
-
 def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
     white = run.white("floor-0.5", share=99.9)
     strip = Strip(
-        "s", "Edge s of the light, at the same power", [_frame(run, size, white) for size in SIZES], SIZES.index(0.7),
+        "s", "Edge s of the light, at the same power", [frame(run, size, white) for size in SIZES], SIZES.index(0.7),
         ("From the side", "From below", "From outside"),
         note="Three boards hang over the receiver, their edges in line, from left to right with d₂/d₁ = 1/7, 1/3, 1. From the side, "
         "the last one. The point light sends as much straight down as the others, but more to the sides: it has no cos θ′.",
     )  # fmt: skip
     curves = [
-        curve_of(f"d₂/d₁ = {word}", FITTED, [found[f"w{s:g}-{n}"] for s in FITTED], lambda s, r=r: r * s, "line: s · d₂/d₁")
+        curve_of(f"d₂/d₁ = {word}", FITTED, [found[f"w{s:g}-{n}"] for s in FITTED], partial(np.multiply, r), "line: s · d₂/d₁")
         for n, (word, r) in enumerate(DISTANCE_RATIOS.items())
     ]  # fmt: skip
     drawing = error_curves(
@@ -56,7 +47,8 @@ def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
     )  # fmt: skip
     rows = {f"{s:g}": [found[f"w{s:g}-{n}"] for n in range(3)] for s in FITTED}
     head, says = ("s [m]", *(f"{word}" for word in DISTANCE_RATIOS)), "Measured width of the penumbra [m]"
-    table = table_of(head, rows, f"{says} by s and d₂/d₁.", bare=True, note=f"{says}, under boards with d₂/d₁ = 1/7, 1/3, 1.")
+    note = f"{says}, under boards with d₂/d₁ = 1/7, 1/3, 1."
+    table = table_of(head, rows, f"{says} by s and d₂/d₁.", bare=True, note=note)
     return [strip, Plot(drawing, "Marks: measured, 95 % of 16 replicates. Lines: similar triangles.", table)]
 
 

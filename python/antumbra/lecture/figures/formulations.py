@@ -6,13 +6,11 @@ from collections.abc import Mapping
 
 from antumbra.lecture import low_room
 from antumbra.lecture.figure import Claim, Equation, Figure, Number, Pick, Question, Variant
-from antumbra.lecture.measures.three_forms import DISTANCES, FORMS, ONE, at_the_middle, exact
+from antumbra.lecture.measures.three_forms import FORMS, ONE, at_the_middle
 from antumbra.lecture.quantity import Quantity
 from antumbra.lecture.run import Run
-from antumbra.lecture.sketches.three_forms import frames
-from antumbra.lecture.stages import Panel, Part, Plot, Strip, Table, Tabs
-from antumbra.lecture.stages.quantities import curve_of, table_of
-from antumbra.study.plot import error_curves
+from antumbra.lecture.sketches.three_forms import frames, near_a_corner, plot
+from antumbra.lecture.stages import Panel, Part, Strip, Tabs
 
 RATIOS = [0.1, 0.2, 0.3, 0.4, 0.6, 0.8, 1.0, 1.2, 1.3, 1.4, 1.45, 1.5, 1.58]
 SHOWN = [0.1, 0.4, 0.8, 1.2, 1.45, 1.58]
@@ -20,7 +18,6 @@ LOOK = low_room.VIEW | {
     "sampler": "random", "viewing": "centre", "viewing_rays": Pick(32, 128), "shadow_rays": 1,
     "size": Pick((72, 48), (240, 160)), "aov": "emission",
 }  # fmt: skip
-SAMPLED = {"hemisphere": "p = cos θ / π", "surfaces": "p = 1/A of all", "area": "p = 1/A of the light"}
 
 
 def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
@@ -38,29 +35,10 @@ def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
         Panel(value, name, [Strip(key, label, strip, RATIOS.index(1.45), labels, note)])
         for (value, name, key, labels, note), strip in zip(shown, each, strict=True)
     ]
-    return [Tabs("show", "What is shown", [*panels, Panel("corner", "Near a corner", [_corner(found)])]), _plot(found)]
-
-
-def _plot(found: Mapping[str, Quantity]) -> Plot:
-    curves = [
-        curve_of(name, RATIOS, [found[f"{form}-{at}"] for at in RATIOS], lambda x, form=form: exact(form, x), SAMPLED[form])
-        for form, name in FORMS.items()
-    ]  # fmt: skip
-    drawing = error_curves(
-        curves, x_title="R/h", y_title="variance of one sample / E²", x_ticks=[0.1, 0.2, 0.4, 0.8, 1.45], chosen=FORMS["area"],
-        label="Variance against the size of the light: points of the light are best until R/h = 1.45, directions above; all surfaces never.",
-    )  # fmt: skip
-    rows = {f"{at:g}": [found[f"share-{form}-{at}"] for form in FORMS] for at in SHOWN}
-    table = table_of(("R/h", *FORMS.values()), rows, "Share of samples with L_e ≠ 0.",
-                     note="Share of samples with Lₑ ≠ 0, at the middle of the floor. Of the last two forms only these cost a shadow ray.")  # fmt: skip
-    return Plot(drawing, "At the middle of the floor. Marks: measured, 95 % over 32 groups. Lines: closed forms.", table)
-
-
-def _corner(found: Mapping[str, Quantity]) -> Table:
-    rows = {f"{d:g}": (found[f"corner-{d}"],) for d in DISTANCES}
-    return table_of(("distance from the light [m]", "mean square of one sample"), rows, "Mean square of one point of a light near a corner.",
-        note="A wall meets a square light of 4 × 4 m and radiance 1 at a right angle; the receiver lies on the wall. One point of the "
-        "light: (Lₑ cos θ cos θ′ / r² · A)². Half the distance, four times the square, while the irradiance stays below π/2.")  # fmt: skip
+    return [
+        Tabs("show", "What is shown", [*panels, Panel("corner", "Near a corner", [near_a_corner(found)])]),
+        plot(found, RATIOS, SHOWN),
+    ]
 
 
 FIGURE = Figure(

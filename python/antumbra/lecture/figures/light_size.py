@@ -10,17 +10,19 @@ from antumbra.lecture.measures.lit_and_penumbra import Classes, noises, squares
 from antumbra.lecture.measures.noise import luminances
 from antumbra.lecture.quantity import Quantity
 from antumbra.lecture.run import Run
-from antumbra.lecture.scenes import PILLARS_VIEW, builtin
+from antumbra.lecture.scenes import CENTRED, builtin
 from antumbra.lecture.stages import Frame, Part, Plot, Strip
 from antumbra.lecture.stages.quantities import table_of
 from antumbra.study.plot import error_curves, measured
 
 SIZES = [0.25, 0.35, 0.5, 0.7, 1.0, 1.4, 2.0, 2.8, 4.0]
-LOOK = PILLARS_VIEW | {
-    "estimator": "area", "viewing": "centre", "viewing_rays": 1, "light_points": "area", "size": Pick((96, 68), (240, 168)),
-}  # fmt: skip
-ONE = LOOK | {"sampler": "random", "shadow_rays": 1}
-TRUTH = LOOK | {"sampler": "owen", "shadow_rays": Pick(64, 256), "aov": "visible-fraction,unshadowed-direct"}
+ONE = CENTRED | {"light_points": "area", "sampler": "random", "shadow_rays": 1}
+TRUTH = CENTRED | {
+    "light_points": "area",
+    "sampler": "owen",
+    "shadow_rays": Pick(64, 256),
+    "aov": "visible-fraction,unshadowed-direct",
+}
 
 
 def _squares(run: Run) -> Classes:

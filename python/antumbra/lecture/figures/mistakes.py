@@ -53,7 +53,10 @@ def _cell(found: Quantity) -> str:
 
 
 def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
-    panels = [Panel("which", "Which is right?", [_guess(run)]), *(_panel(run, mistake) for mistake in MISTAKES)]
+    panels = [
+        Panel("which", "Which is right?", [_guess(run)]),
+        *(_panel(run, mistake) for mistake in MISTAKES),
+    ]
     cells = {name: [found[f"{name}-{test}"] for test in TESTS] for name, _, _ in TESTED}
     table = table_of(
         ("estimator", *TESTS.values()), {name: [_cell(q) for q in row] for name, row in cells.items()},

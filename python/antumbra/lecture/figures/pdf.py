@@ -9,14 +9,13 @@ from antumbra.lecture.figure import Claim, Equation, Figure, Number, Pick, Quest
 from antumbra.lecture.measures.densities import against, drawn
 from antumbra.lecture.quantity import Quantity
 from antumbra.lecture.run import Run
-from antumbra.lecture.scenes import PILLARS_LIGHT, PILLARS_VIEW, builtin, pillars_with_strip
+from antumbra.lecture.scenes import CENTRED, PILLARS_LIGHT, builtin, pillars_with_strip
 from antumbra.lecture.stages import Part
 from antumbra.lecture.stages.quantities import table_of, tabs_of
 
 DENSITIES = {
     "area": "uniform, 1/A", "skewed": "skewed to one side", "nearest": "about the nearest point", "hole": "with a hole",
 }  # fmt: skip
-LOOK = PILLARS_VIEW | {"estimator": "area", "viewing": "centre", "viewing_rays": 1, "size": Pick((96, 68), (240, 168))}
 SCENE = builtin("pillars", light_size=2.0)
 
 
@@ -53,12 +52,12 @@ FIGURE = Figure(
     question=Question("One of four densities never draws a quarter of the light. What does its picture show?",
                       ("more noise", "a clean picture, too dark", "dark spots"), 1),
     variants=[
-        Variant("truth", SCENE, LOOK | {"estimator": "mis", "shadow_rays": Pick(64, 512), "sampler": "owen"}, truth=True),
+        Variant("truth", SCENE, CENTRED | {"estimator": "mis", "shadow_rays": Pick(64, 512), "sampler": "owen"}, truth=True),
         # The means are judged by directions, which know nothing of points on lights.
-        Variant("other", SCENE, LOOK | {"estimator": "hemisphere", "shadow_rays": Pick(256, 4096)}, 4, truth=True),
+        Variant("other", SCENE, CENTRED | {"estimator": "hemisphere", "shadow_rays": Pick(256, 4096)}, 4, truth=True),
         # The strip that the hole leaves out, as a light of its own.
-        Variant("strip", pillars_with_strip(0.5, 0.75), LOOK | {"light": "strip", "shadow_rays": Pick(64, 512)}, 2, truth=True),
-        *(Variant(name, SCENE, LOOK | {"light_points": name, "shadow_rays": 4, "sampler": "random"}, Pick(16, 64)) for name in DENSITIES),
+        Variant("strip", pillars_with_strip(0.5, 0.75), CENTRED | {"light": "strip", "shadow_rays": Pick(64, 512)}, 2, truth=True),
+        *(Variant(name, SCENE, CENTRED | {"light_points": name, "shadow_rays": 4, "sampler": "random"}, Pick(16, 64)) for name in DENSITIES),
     ],
     measure=lambda run: against(run, DENSITIES, "other", "strip"), stage=_stage, exr=["hole"],
     answer=Number("hole", "So much light is missing, and the variance is {noise-hole:1} of that of the uniform density. "

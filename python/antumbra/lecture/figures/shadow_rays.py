@@ -9,8 +9,9 @@ from antumbra.lecture.figure import Claim, Equation, Figure, Number, Pick, Quest
 from antumbra.lecture.measures.slopes import Errors
 from antumbra.lecture.quantity import Quantity
 from antumbra.lecture.run import Run
-from antumbra.lecture.scenes import PILLARS_VIEW, builtin
-from antumbra.lecture.stages import Part, Picture, Plot
+from antumbra.lecture.scenes import CENTRED, builtin
+from antumbra.lecture.sketches.samplers import counts
+from antumbra.lecture.stages import Part, Plot
 from antumbra.lecture.stages.quantities import table_of, tabs_of
 from antumbra.study.plot import error_curves
 
@@ -18,8 +19,7 @@ SHOWN, POWERS = [1, 9, 36, 100], [1, 4, 16, 64, 256]
 # Owen points are balanced at powers of four: there the slope is fitted.
 FITTED = {"random": SHOWN, "stratified": SHOWN, "regular": SHOWN, "owen": POWERS}
 COUNTS = {sampler: sorted({*SHOWN, *fitted}) for sampler, fitted in FITTED.items()}
-LOOK = PILLARS_VIEW | {"estimator": "area", "viewing": "centre", "viewing_rays": 1, "size": Pick((96, 68), (240, 168))}
-TRUTH = LOOK | {"estimator": "mis", "sampler": "owen", "shadow_rays": Pick(512, 2048)}
+TRUTH = CENTRED | {"estimator": "mis", "sampler": "owen", "shadow_rays": Pick(512, 2048)}
 
 
 def _errors(run: Run) -> Errors:
@@ -36,19 +36,14 @@ def _measure(run: Run) -> Mapping[str, Quantity]:
     }
 
 
-def _row(run: Run, sampler: str, white: float, reference: Picture) -> list[Picture]:
-    pictures = []
-    for n in SHOWN:
-        alt = f"{n} {sampler} shadow ray{'s' * (n > 1)} a pixel: {_errors(run).relative(sampler, n):v} of the noise of a random one."
-        pixels, caption = run.image(f"{sampler}-{n}").pixels, f"{n} ray{'s' * (n > 1)}"
-        pictures.append(run.picture(pixels, alt, caption, name=f"{sampler}-{n}", white=white, noise=True))
-    return [*pictures, reference]
-
-
 def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
     white, errors = run.white("truth"), _errors(run)
-    reference = run.picture("truth", "Reference: smooth soft shadows of three pillars and a ball.", "reference", white=white)
-    tabs = tabs_of("sampler", "Sampler", {s: (s, _row(run, s, white, reference)) for s in FITTED})
+    reference = run.picture(
+        "truth", "Reference: smooth soft shadows of three pillars and a ball.", "reference", white=white
+    )
+    tabs = tabs_of(
+        "sampler", "Sampler", {s: (s, [*counts(run, errors, s, SHOWN, white), reference]) for s in FITTED}
+    )
     svg = error_curves(
         [errors.curve(sampler, FITTED) for sampler in FITTED], x_title="shadow rays per pixel, N", y_title="RMSE, random at N = 1 is 1",
         chosen="random", x_ticks=[1, 9, 36, 100, 256], y_ticks=[1, 1 / 3, 1 / 6, 1 / 10, 1 / 30, 1 / 100],
@@ -59,7 +54,7 @@ def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
         "curve. An empty mark on it is measured and left out: owen is balanced at powers of 4, so 9, 36 and 100 do not count. "
         "The regular sampler has no replicates: its error is the same each time."
     )  # fmt: skip
-    rows = {str(n): (f"{100 / n**0.5:.3g}", *(errors.relative(s, n) for s in FITTED)) for n in SHOWN}
+    rows = {str(n): [Quantity(n**-0.5, unit="%"), *(errors.relative(s, n) for s in FITTED)] for n in SHOWN}
     table = table_of(
         ("N", "1/√N", *FITTED), rows, "RMSE against N, predicted and measured [%]", fine=(1,), bare=True,
         note=f"RMSE in % of that of one random ray ({errors.unit:1}). The truth is made by another estimator (mis, with points in "
@@ -74,7 +69,7 @@ FIGURE = Figure(
                       ("100", "10", "about 3"), 1),
     variants=[
         Variant("truth", builtin("pillars"), TRUTH, 2, truth=True),
-        *(Variant(f"{sampler}-{n}", builtin("pillars"), LOOK | {"sampler": sampler, "shadow_rays": n, "light_points": "area"},
+        *(Variant(f"{sampler}-{n}", builtin("pillars"), CENTRED | {"sampler": sampler, "shadow_rays": n, "light_points": "area"},
                   1 if sampler == "regular" else Pick(4, 8)) for sampler in FITTED for n in COUNTS[sampler]),
     ],
     measure=_measure, stage=_stage, exr=["random-100"],

@@ -52,7 +52,10 @@ def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
         note=f"The receiver’s fisheye: straight up in the middle, the horizon as the rim, rings at 30° and 60°; equal areas are equal "
         f"solid angles. {SHOWN:,} random directions: dots find the light, crosses do not. {SIDE}² equal patches of the light: each dot is as large as its dω.",
     )  # fmt: skip
-    rows = {n: (found[f"directions-{n}"], found[f"area-{n}"], f"{omega:.5f} sr") for n, (_, omega) in LIGHTS.items()}
+    rows = {
+        n: (found[f"directions-{n}"], found[f"area-{n}"], f"{omega:.5f} sr")
+        for n, (_, omega) in LIGHTS.items()
+    }
     table = table_of(
         ("light", "2π · share of directions", "Σ cos θ′ dA / r²", "exact Ω"), rows, "Solid angle of six lights in two ways, and exactly.",
         fine=(1,), note=f"{run.pick(COUNT):,} random directions, as many random points. Three of four points of the sphere turn their back and count 0.",

@@ -41,7 +41,10 @@ class Parts(NamedTuple):
     @property
     def covariances(self) -> NDArray[np.float64]:
         """The three covariances together."""
-        return self.visibility_geometry + self.visibility_interaction + self.geometry_interaction
+        total: NDArray[np.float64] = (
+            self.visibility_geometry + self.visibility_interaction + self.geometry_interaction
+        )
+        return total
 
     @property
     def whole(self) -> NDArray[np.float64]:
@@ -65,7 +68,7 @@ def parts(v: NDArray[Any], g: NDArray[Any]) -> Parts:
     by_place = means.mean(-1)
     place = by_place.var(-1, ddof=1) - (noise / lights).mean(-1) if places > 1 else np.zeros(light.shape)
     without = np.mean([_split(np.delete(v, n, -1), np.delete(g, n, -1)) for n in range(samples)], axis=0)
-    return Parts(*(samples * _split(v, g) - (samples - 1) * without), light, place)
+    return Parts._make([*(samples * _split(v, g) - (samples - 1) * without), light, place])
 
 
 def _split(v: NDArray[Any], g: NDArray[Any]) -> NDArray[np.float64]:
@@ -76,7 +79,10 @@ def _split(v: NDArray[Any], g: NDArray[Any]) -> NDArray[np.float64]:
     interaction = product - product.mean(-1, keepdims=True)
     pairs = (visibility, geometry), (visibility, interaction), (geometry, interaction)
     squares = [a * a for a in (visibility, geometry, interaction)] + [2 * a * b for a, b in pairs]
-    return np.stack([each.sum(-1).mean((-1, -2)) for each in squares]) / (v.shape[-1] - 1)
+    found: NDArray[np.float64] = np.stack(
+        [each.sum(-1).mean((-1, -2)) / (v.shape[-1] - 1) for each in squares]
+    )
+    return found
 
 
 def of_picture(scene: Scene, size: tuple[int, int], side: int, count: int, seed: int, **camera: Any) -> Parts:

@@ -16,11 +16,21 @@ from antumbra.lecture.variant import Pick
 from antumbra.study.statistics import Interval, verdict
 
 # By name, as the page heads them.
-TESTS = {"below": "below, r = 1", "side": "side", "twice": "size × 2", "count": "N = 16 : 1", "other": "directions"}
+TESTS = {
+    "below": "below, r = 1",
+    "side": "side",
+    "twice": "size × 2",
+    "count": "N = 16 : 1",
+    "other": "directions",
+}
 RAYS, WITHIN = 16, 0.02
 # What an estimator finds: supported, undecided or not that it is right.
 SIGNS = {"supported": "✓", "undecided": "?", "not supported": "✗"}
-_SIDE, _TWICE, _BELOW = floor_under_square(1.0, 1.25), floor_under_square(2.0, 2.5), floor_under_square(0.2, 1.0)
+_SIDE, _TWICE, _BELOW = (
+    floor_under_square(1.0, 1.25),
+    floor_under_square(2.0, 2.5),
+    floor_under_square(0.2, 1.0),
+)
 _AT, _TWICE_AT = (0.9, 0.0, 0.4), (1.8, 0.0, 0.8)
 
 

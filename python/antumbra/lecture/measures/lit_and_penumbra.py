@@ -36,7 +36,7 @@ def squares(run: Run, sizes: Sequence[float]) -> Classes:
 
 
 def noises(found: Classes, sizes: Sequence[float]) -> dict[str, Quantity]:
-    """Noise of one ray, the unshadowed light being 1, `class`-`size`; …-doubled: at 2 over at 1; lit: its slope to 1."""
+    """Noise of one ray over the unshadowed light, `class`-`size`; …-doubled: at 2 over at 1; lit: its slope up to 1."""
     intervals = {
         (name, s): statistics.root(statistics.mean(columns[:, n]))
         for name, columns in found.items()
@@ -46,6 +46,8 @@ def noises(found: Classes, sizes: Sequence[float]) -> dict[str, Quantity]:
     slope = statistics.slope([sizes[n] for n in small], np.sqrt(found["lit"][:, small]))
     return {
         **{f"{name}-{s:g}": of_interval(each) for (name, s), each in intervals.items()},
-        **{f"{c}-doubled": of_interval(statistics.ratio(intervals[c, 2.0], intervals[c, 1.0])) for c in found},
+        **{
+            f"{c}-doubled": of_interval(statistics.ratio(intervals[c, 2.0], intervals[c, 1.0])) for c in found
+        },
         "lit": of_interval(slope),
     }

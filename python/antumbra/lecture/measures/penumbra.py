@@ -40,7 +40,9 @@ def penumbra_widths(
     return np.array(widths)
 
 
-def board_widths(run: Run, sizes: Sequence[float], doubled: Sequence[tuple[float, float]]) -> dict[str, Quantity]:
+def board_widths(
+    run: Run, sizes: Sequence[float], doubled: Sequence[tuple[float, float]]
+) -> dict[str, Quantity]:
     """Widths of the penumbra of each of the three boards, w`size`-`board` [m], for edges `sizes` of the light.
 
     share: over the prediction s d₂/d₁, of all of them; doubled: over the width at half the edge; boards: the last

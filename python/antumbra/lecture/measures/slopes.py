@@ -48,14 +48,20 @@ class Errors:
 
     def divided(self, sampler: str, n: int, other: str, m: int) -> Quantity:
         """RMSE with `n` rays of one sampler over that with `m` of another."""
-        return of_interval(statistics.ratio(*(statistics.mean(self.at(*a)) for a in ((sampler, n), (other, m)))))
+        return of_interval(
+            statistics.ratio(*(statistics.mean(self.at(*a)) for a in ((sampler, n), (other, m))))
+        )
 
     def slopes(self, fitted: Counts) -> dict[str, Quantity]:
         """Slope of the RMSE over the counts that are `fitted`, for each sampler."""
         of = {s: np.stack([self.at(s, n) for n in every], axis=1) for s, every in fitted.items()}
-        return {s: of_interval(statistics.slope(fitted[s], e), note="slope of the RMSE") for s, e in of.items()}
+        return {
+            s: of_interval(statistics.slope(fitted[s], e), note="slope of the RMSE") for s, e in of.items()
+        }
 
     def curve(self, sampler: str, fitted: Counts) -> Curve:
         """For `error_curves`, in units of one random ray."""
         counts, unit = self.counts[sampler], float(self._first.mean())
-        return measured(sampler, counts, self.squares[sampler] / unit, fit=[n in fitted[sampler] for n in counts])
+        return measured(
+            sampler, counts, self.squares[sampler] / unit, fit=[n in fitted[sampler] for n in counts]
+        )

@@ -38,7 +38,9 @@ def at_the_middle(run: Run, ratios: Sequence[float]) -> dict[str, Quantity]:
     even: where points of the light and directions scatter alike; surfaces, areas: mean square of all surfaces over
     that of the light, and their areas; time-…: of one sample, the light being 1; corner-…: `near_a_corner`.
     """
-    samples = {(form, at): _samples(run, form, at, stream) for stream, at in enumerate(ratios) for form in FORMS}
+    samples = {
+        (form, at): _samples(run, form, at, stream) for stream, at in enumerate(ratios) for form in FORMS
+    }
     light, everything = low_room.areas(1.0)
     found = {
         "even": _even(samples),
@@ -61,7 +63,8 @@ def near_a_corner(run: Run) -> dict[str, Quantity]:
     scene, side = am.Scene("corner"), run.pick(Pick(128, 512))
     scene.add_light(square_light(4.0, 0.0))
     moments = [
-        moments_of_light_points(scene, (2.0, -d, 0.0), (-1.0, 0.0, 0.0), side, run.seeded(1)) for d in DISTANCES
+        moments_of_light_points(scene, (2.0, -d, 0.0), (-1.0, 0.0, 0.0), side, run.seeded(1))
+        for d in DISTANCES
     ]
     found = {f"corner-{d}": mean_of(each) for d, each in zip(DISTANCES, moments, strict=True)}
     return found | {"corner": mean_of(np.polyfit(np.log(DISTANCES), np.log(moments), 1)[0])}
@@ -108,5 +111,8 @@ def _median(values: Sequence[float], note: str) -> Quantity:
     ordered = np.sort(values)
     # Of n values, those with these numbers hold the median in at least 95 % of cases: n/2 ± 0.98 √n.
     reach = int(np.ceil(0.98 * np.sqrt(len(ordered))))
-    low, high = ordered[max(0, len(ordered) // 2 - reach)], ordered[min(len(ordered) - 1, len(ordered) // 2 + reach)]
+    low, high = (
+        ordered[max(0, len(ordered) // 2 - reach)],
+        ordered[min(len(ordered) - 1, len(ordered) // 2 + reach)],
+    )
     return Quantity(float(np.median(ordered)), float(high - low) / 2, "", note)

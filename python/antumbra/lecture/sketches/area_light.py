@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from antumbra.lecture.stages import Drawing, Sketch
+from antumbra.lecture.run import Run
+from antumbra.lecture.square_lights import DISTANCE_RATIOS
+from antumbra.lecture.stages import Drawing, Frame, Sketch
 from antumbra.lecture.stages.drawing import INK, LIGHT, LIT, PENUMBRA, UMBRA
 
 # Where light, board and receiver stand; the board reaches from the top to the middle.
@@ -32,3 +34,14 @@ def from_the_side(size: float) -> Drawing:
         f"Side view: a light of edge {size:g} m, the edge of a board halfway, and the receiver, on which the penumbra "
         f"is {size:g} m wide."
     )
+
+
+def frame(run: Run, size: float, white: float) -> Frame:
+    """The side view, the floor from below the boards, and everything from outside, under a light of edge `size`."""
+    says = ", ".join(f"{size * r:.2f}" for r in DISTANCE_RATIOS.values()) if size else "no penumbra"
+    below = f"The receiver under a light of edge {size:g} m: penumbras {says} m wide."
+    outside = f"The three boards over the receiver, light of edge {size:g} m."
+    views = ((f"floor-{size}", below), (f"view-{size}", outside))
+    pictures = [run.picture(key, alt, white=white) for key, alt in views]
+    word = f"s = {size:g} m: penumbra {size:.2f} m wide at d₂ = d₁" if size else "a point light: no penumbra"
+    return Frame(f"{size:g}", word, pictures, f"s = {size:g} m" if size else "point", "", from_the_side(size))

@@ -2,19 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
 
 from antumbra.lecture import low_room
 from antumbra.lecture.measures.maps import box_mean
-from antumbra.lecture.measures.three_forms import FORMS, scatter
+from antumbra.lecture.measures.three_forms import DISTANCES, FORMS, exact, scatter
 from antumbra.lecture.quantity import Quantity
 from antumbra.lecture.run import Run
-from antumbra.lecture.stages import Frame, Picture
+from antumbra.lecture.stages import Frame, Picture, Plot, Table
+from antumbra.lecture.stages.quantities import curve_of, table_of
+from antumbra.study.plot import error_curves
 
 Map = NDArray[np.float64]
+_SAMPLED = {"hemisphere": "p = cos θ / π", "surfaces": "p = 1/A of all", "area": "p = 1/A of the light"}
 # Points of the light, directions, no light.
 _BETTER = ("#f2b705", "#4e70aa", "#15181f")
 
@@ -33,10 +37,15 @@ def frames(run: Run, found: Mapping[str, Quantity], at: float, rays: int) -> tup
     ]  # fmt: skip
     maps = [_scatter(run, form, at, np.sqrt(of_one[form]) / np.maximum(light, 1e-9), dark) for form in FORMS]
     costs = {"rays": 1.0, "time": found["time-hemisphere"].value}
-    better = [_better(run, at, word, of_one["hemisphere"] * cost, of_one["area"], dark) for word, cost in costs.items()]
+    better = [
+        _better(run, at, word, of_one["hemisphere"] * cost, of_one["area"], dark)
+        for word, cost in costs.items()
+    ]
     best = min(FORMS, key=lambda form: found[f"{form}-{at}"].value)
     says = f"R/h = {at:g}: fills {100 * low_room.filled(at):.0f} %, best: {FORMS[best]}"
-    first, second, third = (Frame(f"{at:g}", says, cells, f"R/h = {at:g}") for cells in (pictures, maps, better))
+    first, second, third = (
+        Frame(f"{at:g}", says, cells, f"R/h = {at:g}") for cells in (pictures, maps, better)
+    )
     return first, second, third
 
 
@@ -49,5 +58,43 @@ def _scatter(run: Run, form: str, at: float, relative: Map, dark: NDArray[np.boo
 def _better(run: Run, at: float, word: str, directions: Map, points: Map, dark: NDArray[np.bool_]) -> Picture:
     # Where no direction found the light, its scatter is not small but unknown.
     won = (directions > 0) & (directions < points)
-    part = f"Directions are better in {100 * np.mean(won[~dark]):.0f} % of the pixels that get light, at equal {word}."
-    return run.classes(np.where(dark, 2, won), part, name=f"{at}-{word}", colours=_BETTER)
+    part = 100 * np.mean(won[~dark])
+    alt = f"Directions are better in {part:.0f} % of the pixels that get light, at equal {word}."
+    return run.classes(np.where(dark, 2, won), alt, name=f"{at}-{word}", colours=_BETTER)
+
+
+def plot(found: Mapping[str, Quantity], ratios: Sequence[float], shown: Sequence[float]) -> Plot:
+    """Variance at the middle of the floor against R/h, with closed forms; the share of samples that bring light."""
+    curves = []
+    for form, name in FORMS.items():
+        marks = [found[f"{form}-{at}"] for at in ratios]
+        curves.append(curve_of(name, ratios, marks, partial(exact, form), _SAMPLED[form]))
+    drawing = error_curves(
+        curves,
+        x_title="R/h",
+        y_title="variance of one sample / E²",
+        x_ticks=[0.1, 0.2, 0.4, 0.8, 1.45],
+        chosen=FORMS["area"],
+        label="Variance against the size of the light: points of the light are best until R/h = 1.45, directions "
+        "above; all surfaces never.",
+    )
+    rows = {f"{at:g}": [found[f"share-{form}-{at}"] for form in FORMS] for at in shown}
+    note = "Share of samples with Lₑ ≠ 0, at the middle of the floor. In the last two only these cost a shadow ray."
+    table = table_of(("R/h", *FORMS.values()), rows, "Share of samples with L_e ≠ 0.", note=note)
+    return Plot(
+        drawing,
+        "At the middle of the floor. Marks: measured, 95 % over 32 groups. Lines: closed forms.",
+        table,
+    )
+
+
+def near_a_corner(found: Mapping[str, Quantity]) -> Table:
+    """Mean square of one point of a light by the distance from it."""
+    rows = {f"{d:g}": (found[f"corner-{d}"],) for d in DISTANCES}
+    note = (
+        "A wall meets a square light of 4 × 4 m and radiance 1 at a right angle; the receiver lies on the wall. One "
+        "point of the light: (Lₑ cos θ cos θ′ / r² · A)². Half the distance, four times the square, while the "
+        "irradiance stays below π/2."
+    )
+    head = ("distance from the light [m]", "mean square of one sample [W² m⁻⁴]")
+    return table_of(head, rows, "Mean square of one point of a light near a corner.", note=note)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from antumbra.lecture.quantity import Quantity
 from antumbra.lecture.stages.base import Picture
@@ -46,7 +46,7 @@ def curve_of(
     name: str,
     x: Sequence[float],
     found: Sequence[Quantity],
-    exact: Callable[[NDArray[np.float64]], NDArray[np.float64]],
+    exact: Callable[[NDArray[np.float64]], ArrayLike],
     note: str = "",
 ) -> Curve:
     """Measured marks with their 95 % bars, and the closed form as a line through x from its first to its last."""
