@@ -67,22 +67,60 @@ def parts(v: NDArray[Any], g: NDArray[Any]) -> Parts:
     light = (means.var(-1) - (lights - 1) / lights * noise).mean(-1)
     by_place = means.mean(-1)
     place = by_place.var(-1, ddof=1) - (noise / lights).mean(-1) if places > 1 else np.zeros(light.shape)
-    without = np.mean([_split(np.delete(v, n, -1), np.delete(g, n, -1)) for n in range(samples)], axis=0)
-    return Parts._make([*(samples * _split(v, g) - (samples - 1) * without), light, place])
+    return Parts._make([*_split(v, g), light, place])
 
 
 def _split(v: NDArray[Any], g: NDArray[Any]) -> NDArray[np.float64]:
-    """ḡ² Var V, v̄² Var g, Var (V − v̄)(g − ḡ), and 2 Cov of each two, averaged over places and lights: (6, …)."""
-    v_mean, g_mean = v.mean(-1, keepdims=True), g.mean(-1, keepdims=True)
-    # The first two have the mean 0.
-    visibility, geometry, product = g_mean * (v - v_mean), v_mean * (g - g_mean), (v - v_mean) * (g - g_mean)
-    interaction = product - product.mean(-1, keepdims=True)
-    pairs = (visibility, geometry), (visibility, interaction), (geometry, interaction)
-    squares = [a * a for a in (visibility, geometry, interaction)] + [2 * a * b for a, b in pairs]
-    found: NDArray[np.float64] = np.stack(
-        [each.sum(-1).mean((-1, -2)) / (v.shape[-1] - 1) for each in squares]
-    )
+    """ḡ² Var V, v̄² Var g, Var (V − v̄)(g − ḡ), and 2 Cov of each two, averaged over places and lights: (6, …).
+
+    Less the jackknife's estimate of their bias: from what they are without the first sample, the second, and so on.
+    """
+    n, v_mean, g_mean = v.shape[-1], v.mean(-1), g.mean(-1)
+    x, y = v - v_mean[..., None], g - g_mean[..., None]
+    sums = {(a, b): (x**a * y**b).sum(-1) for a, b in ((2, 0), (0, 2), (1, 1), (2, 1), (1, 2), (2, 2))}
+    whole = _terms(v_mean, g_mean, sums, n)
+    without = np.zeros_like(whole)
+    for k in range(n):
+        # The means of the rest, from those of all.
+        p, q = -x[..., k] / (n - 1), -y[..., k] / (n - 1)
+        rest = {(a, b): total - x[..., k] ** a * y[..., k] ** b for (a, b), total in sums.items()}
+        without += _terms(v_mean + p, g_mean + q, _shifted(rest, p, q, n - 1), n - 1) / n
+    found: NDArray[np.float64] = n * whole - (n - 1) * without
     return found
+
+
+_Sums = dict[tuple[int, int], NDArray[np.float64]]
+
+
+def _shifted(s: _Sums, p: NDArray[np.float64], q: NDArray[np.float64], n: int) -> _Sums:
+    """Sums of (x − p)^a (y − q)^b over `n` samples whose means are p and q, from those of x^a y^b."""
+    return {
+        (2, 0): s[2, 0] - n * p * p,
+        (0, 2): s[0, 2] - n * q * q,
+        (1, 1): s[1, 1] - n * p * q,
+        (2, 1): s[2, 1] - q * s[2, 0] - 2 * p * s[1, 1] + 2 * n * p * p * q,
+        (1, 2): s[1, 2] - p * s[0, 2] - 2 * q * s[1, 1] + 2 * n * p * q * q,
+        (2, 2): s[2, 2]
+        - 2 * q * s[2, 1]
+        - 2 * p * s[1, 2]
+        + q * q * s[2, 0]
+        + p * p * s[0, 2]
+        + 4 * p * q * s[1, 1]
+        - 3 * n * p * p * q * q,
+    }
+
+
+def _terms(v: NDArray[np.float64], g: NDArray[np.float64], s: _Sums, n: int) -> NDArray[np.float64]:
+    """The six parts from the means of V and g and from sums of powers of their distances from these."""
+    each = [
+        g * g * s[2, 0],
+        v * v * s[0, 2],
+        s[2, 2] - s[1, 1] ** 2 / n,
+        2 * v * g * s[1, 1],
+        2 * g * s[2, 1],
+        2 * v * s[1, 2],
+    ]
+    return np.stack([part.mean((-1, -2)) for part in each]) / (n - 1)
 
 
 def of_picture(scene: Scene, size: tuple[int, int], side: int, count: int, seed: int, **camera: Any) -> Parts:
