@@ -25,7 +25,7 @@ def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
     cost = f"a direction took {found['time-hemisphere']:1} and a point of all surfaces {found['time-surfaces']:1} times as long as"
     shown = [
         ("noise", "Pictures", "R", names, f"{rays} random samples a pixel, all through its centre."),
-        ("variance", "Scatter", "radius", names, "Standard deviation of one sample over the light of the pixel: dark 0.1, white 30."),
+        ("variance", "Scatter", "radius", names, "Standard deviation of one sample, over the light of the pixel. Black: the light itself, and no light."),
         ("better", "Who is better", "size", ("at equal rays", "at equal time"), "Yellow: points of the light; blue: directions; "
          f"black: the light, and what it does not reach. In this run {cost} a point of the light."),
     ]  # fmt: skip

@@ -36,7 +36,7 @@ def _frame(run: Run, found: Mapping[str, Quantity], size: float, white: float) -
     pictures = [
         run.picture(run.image(f"one-{size}").pixels, f"One shadow ray a pixel, light of {says}.", name=f"one-{size}", white=white, noise=True),
         run.picture(f"truth-{size}", f"The same without noise, light of {size:g} m.", white=white),
-        run.map(noise / white, f"Noise of one ray: {says}.", name=f"noise-{size}", ramp="amber", high=0.5, noise=True),
+        run.map(noise / white, f"Noise of one ray: {says}.", name=f"noise-{size}", ramp="amber", high=0.5, unit="of white", noise=True),
     ]  # fmt: skip
     return Frame(f"{size:g}", says, pictures, short=f"{size:g} m")
 

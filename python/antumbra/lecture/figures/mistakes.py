@@ -43,7 +43,7 @@ def _panel(run: Run, mistake: Mistake) -> Panel:
         run.picture(mistake.estimator, "The right picture.", "right", name=f"{mistake.name}-right", white=white),
         run.picture(mistake.name, "The wrong picture at the same exposure.", f"{mistake.name}, at the same exposure", white=white),
         run.map(np.log2(share), f"The wrong picture has {span} the light.", f"wrong over right: {span}", name=f"{mistake.name}-share",
-                ramp="signed", low=-4.0, high=4.0),
+                ramp="signed", low=-4.0, high=4.0, ticks={-4: "1/16", -2: "1/4", 0: "1", 2: "4", 4: "16"}, unit="times"),
     ])  # fmt: skip
     return Panel(mistake.name, mistake.name, [row, Formula([(mistake.latex, mistake.spoken)], mistake.why)])
 
@@ -54,11 +54,11 @@ def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
         *(_panel(run, mistake) for mistake in MISTAKES),
     ]
     cells = {name: [found[f"{name}-{test}"] for test in TESTS] for name, _, _ in TESTED}
-    most = Quantity(max(q.error / q.value for row in cells.values() for q in row), 0.0, "%")
+    most = max(q.error / q.value for row in cells.values() for q in row)
     table = table_of(
         ("estimator", *TESTS.values()), {name: [f"{SIGNS[passed(q)]} {q.value:.2f}" for q in row] for name, row in cells.items()},
         "Five tests of the right estimators and the wrong ones.",
-        note=f"What came out over what should, N = {RAYS}: ✗ where the 95 % interval lies outside of 1 ± {WITHIN}. That is ± {most} of the number at most. Straight below a small light at r = 1, and to the "
+        note=f"What came out over what should, N = {RAYS}: ✗ where the 95 % interval lies outside of 1 ± {WITHIN}. The interval is ± {100 * most:.0f} % of the number at most. Straight below a small light at r = 1, and to the "
         "side of a larger one, against the closed form; there against twice the size of everything, one ray in place of 16, and random directions.",
     )  # fmt: skip
     return [Tabs("mistake", "Which mistake is shown", panels), table]

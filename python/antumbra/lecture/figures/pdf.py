@@ -14,7 +14,7 @@ from antumbra.lecture.stages import Part
 from antumbra.lecture.stages.quantities import table_of, tabs_of
 
 DENSITIES = {
-    "area": "uniform, 1/A", "skewed": "skewed to one side", "nearest": "about the nearest point", "hole": "with a hole",
+    "area": "uniform, 1/A", "skewed": "more to one side", "nearest": "about the nearest point", "hole": "with a hole",
 }  # fmt: skip
 SCENE = builtin("pillars", light_size=2.0)
 
@@ -23,26 +23,26 @@ def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
     truth, white, names = run.light("truth"), run.white("truth"), DENSITIES.items()
     off = [
         run.map((run.light(name) - truth) / white, f"{words}: error of the mean {found[name]:v} of the light.",
-                f"{words}: {found[name]:1}", name=f"{name}-off", ramp="signed", low=-0.3, high=0.3)
+                f"{name}: {found[name]:1}", name=f"{name}-off", ramp="signed", low=-0.3, high=0.3, unit="%")
         for name, words in names
     ]  # fmt: skip
     pictures = [
-        run.picture(run.image(name).pixels, f"{words}: noise {found[f'noise-{name}']:v} of the uniform one.", words,
+        run.picture(run.image(name).pixels, f"{words}: noise {found[f'noise-{name}']:v} of the uniform one.", name,
                     name=name, white=white, noise=True)
         for name, words in names
     ]  # fmt: skip
     scene, densities = run.scene(SCENE), []
     for name, words in names:
         density = drawn(scene, (1.5, 0.0, 1.5), PILLARS_LIGHT, name)
-        densities.append(run.map(density, f"Density on the light: {words}.", words, name=f"{name}-density",
-                                 ramp="amber", high=2.0, noise=True))  # fmt: skip
+        densities.append(run.map(density, f"Density on the light: {words}.", name, name=f"{name}-density",
+                                 ramp="amber", high=2.0, unit="uniform = 1", noise=True))  # fmt: skip
     count = len(run.images("area"))
     tabs = tabs_of("show", "What is shown", {
-        "mean": (f"Mean of {count} pictures − truth", off), "picture": ("One picture, 4 rays a pixel", pictures),
-        "density": ("Density on the light", densities),
+        "mean": ("Mean − truth", off), "picture": ("One picture", pictures),
+        "density": ("Density", densities),
     })  # fmt: skip
-    rows = {words: (found[name], found[f"noise-{name}"]) for name, words in names}
-    note = f"{count} independent pictures each. The truth is made by random directions (hemisphere)."
+    rows = {f"{name}: {words}": (found[name], found[f"noise-{name}"]) for name, words in names}
+    note = f"{count} independent pictures of 4 rays a pixel each; maps of the mean in % of white, table in % of the light. The truth is made by random directions (hemisphere)."
     head = ("density", "mean − truth", "variance, uniform = 1")
     return [tabs, table_of(head, rows, "Error of the mean, and variance, of four densities", note=note)]
 

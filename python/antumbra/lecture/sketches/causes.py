@@ -29,6 +29,7 @@ def causes(run: Run, found: Mapping[str, Quantity], one: Picture) -> Tabs:
             ramp=ramp,
             low=low,
             high=high,
+            unit="W·m⁻²·sr⁻¹",
             noise=True,
         )
 

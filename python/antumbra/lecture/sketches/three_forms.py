@@ -52,7 +52,10 @@ def frames(run: Run, found: Mapping[str, Quantity], at: float, rays: int) -> tup
 def _scatter(run: Run, form: str, at: float, relative: Map, dark: NDArray[np.bool_]) -> Picture:
     alt = f"One of the {FORMS[form]} scatters by {np.median(relative[~dark]):.2g} of the light."
     shown = np.where(dark, -1, np.log10(np.maximum(relative, 0.1)))
-    return run.map(shown, alt, name=f"{form}-{at}-scatter", low=-1.0, high=1.5)
+    ticks = {-1.0: "0.1", 0.0: "1", 1.0: "10", 1.5: "32"}
+    return run.map(
+        shown, alt, name=f"{form}-{at}-scatter", low=-1.0, high=1.5, ticks=ticks, unit="of the light"
+    )
 
 
 def _better(run: Run, at: float, word: str, directions: Map, points: Map, dark: NDArray[np.bool_]) -> Picture:
