@@ -61,7 +61,7 @@ def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
 
 
 FIGURE = Figure(
-    number=15, chapter=4, title="How large a light", seconds=Pick(8, 90),
+    number=15, chapter=4, title="How large a light", seconds=Pick(8, 60),
     question=Question("One shadow ray per pixel. The light is made twice as large at the same power. What happens to the noise of a penumbra pixel?",
                       ("it doubles", "it stays", "it halves"), 1),
     variants=[Variant(f"{kind}-{s}", builtin("pillars", light_size=s), options, count)

@@ -54,7 +54,7 @@ FIGURE = Figure(
     variants=[
         Variant("truth", SCENE, CENTRED | {"estimator": "mis", "shadow_rays": Pick(64, 512), "sampler": "owen"}, truth=True),
         # The means are judged by directions, which know nothing of points on lights.
-        Variant("other", SCENE, CENTRED | {"estimator": "hemisphere", "shadow_rays": Pick(256, 4096)}, 4, truth=True),
+        Variant("other", SCENE, CENTRED | {"estimator": "hemisphere", "shadow_rays": Pick(256, 2048)}, 4, truth=True),
         # The strip that the hole leaves out, as a light of its own.
         Variant("strip", pillars_with_strip(0.5, 0.75), CENTRED | {"light": "strip", "shadow_rays": Pick(64, 512)}, 2, truth=True),
         *(Variant(name, SCENE, CENTRED | {"light_points": name, "shadow_rays": 4, "sampler": "random"}, Pick(16, 64)) for name in DENSITIES),

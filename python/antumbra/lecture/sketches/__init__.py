@@ -1,1 +1,1 @@
-"""Drawings that single figures show beside their pictures: plain functions from numbers to a `Drawing`."""
+"""Drawings, frames and panels that single figures show: plain functions from numbers to parts of a stage."""

@@ -41,12 +41,18 @@ def frames(run: Run, found: Mapping[str, Quantity], at: float, rays: int) -> tup
         _better(run, at, word, of_one["hemisphere"] * cost, of_one["area"], dark)
         for word, cost in costs.items()
     ]
-    best = min(FORMS, key=lambda form: found[f"{form}-{at}"].value)
-    says = f"R/h = {at:g}: fills {100 * low_room.filled(at):.0f} %, best: {FORMS[best]}"
+    says = f"R/h = {at:g}: fills {100 * low_room.filled(at):.0f} %, {_best(found, at)}"
     first, second, third = (
         Frame(f"{at:g}", says, cells, f"R/h = {at:g}") for cells in (pictures, maps, better)
     )
     return first, second, third
+
+
+def _best(found: Mapping[str, Quantity], at: float) -> str:
+    """The form of the least variance at the middle of the floor, or the two whose intervals meet."""
+    first, second, _ = sorted(FORMS, key=lambda form: found[f"{form}-{at}"].value)
+    alike = found[f"{second}-{at}"].interval[0] <= found[f"{first}-{at}"].interval[1]
+    return f"{FORMS[first]} and {FORMS[second]} alike" if alike else f"best: {FORMS[first]}"
 
 
 def _scatter(run: Run, form: str, at: float, relative: Map, dark: NDArray[np.bool_]) -> Picture:
