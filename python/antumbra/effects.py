@@ -38,9 +38,14 @@ RULES = (
 )
 
 
-def idle(given: Mapping[str, str], output: str | None = None) -> list[str]:
-    """What to say about settings of `given` (words by name) that change nothing; `output`: the picture's ending."""
-    value = {name: given.get(name, setting.default) for name, setting in table().items()}
+def idle(
+    given: Mapping[str, str], output: str | None = None, asked: Mapping[str, str] | None = None
+) -> list[str]:
+    """What to say about settings of `given` (words by name) that change nothing.
+
+    `output`: the picture's ending; `asked`: what the scene's file asks for where nothing is given.
+    """
+    value = {name: setting.default for name, setting in table().items()} | dict(asked or {}) | dict(given)
     if output is not None:
         value["output"] = output
     said = []

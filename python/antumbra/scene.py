@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 import time
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from os import PathLike, fspath
 from typing import Any, NamedTuple, NoReturn, cast
 
@@ -37,12 +37,17 @@ class Progress(NamedTuple):
 
 
 def load(
-    path: str | PathLike[str], *, up_axis: str | None = None, files_from: str | PathLike[str] | None = None
+    path: str | PathLike[str],
+    *,
+    up_axis: str | None = None,
+    files_from: str | PathLike[str] | None = None,
+    parameters: Mapping[str, str | float] | None = None,
 ) -> Scene:
-    """Reads a scene: glTF/GLB, OBJ, PLY, STL, or a lat-long picture (HDR, EXR: a built-in scene under it).
+    """Reads a scene: glTF/GLB, OBJ, PLY, STL, Mitsuba 3 XML, or a lat-long picture (HDR, EXR: a built-in scene under it).
 
     `up_axis`: "y" or "z", the axis that points up in the file; `files_from`: the folder that the file's own paths
-    may reach (default: its own folder).
+    may reach (default: its own folder); `parameters`: values for what a Mitsuba file declares as `<default>`. The
+    settings that such a file asks for (samples, filter, estimator) hold where `render` is told nothing else.
 
     Raises SceneError with .file, .place and .hint.
 
@@ -50,7 +55,8 @@ def load(
     >>> am.load("room.glb").render().save("room.exr")  # doctest: +SKIP
     """
     folder = None if files_from is None else text("files_from", files_from)
-    return Scene._of(_core.Scene.load(text("path", path), up_axis, folder))
+    given = [(name, value if isinstance(value, str) else f"{value:g}") for name, value in (parameters or {}).items()]
+    return Scene._of(_core.Scene.load(text("path", path), up_axis, folder, given))
 
 
 def builtin(name: str, **parameters: float) -> Scene:
@@ -179,10 +185,10 @@ class Scene(Anatomy):
             raise TypeError(f"progress is {shown(progress)}: something to call is needed")
         began = time.perf_counter()
         watch = None if progress is None else lambda *state: progress(Progress(*state))
-        words = settings.words(options)
-        picture, interrupted = self._core.render(list(words.items()), watch)
+        words, asked = settings.words(options), self._core.suggested()
+        picture, interrupted = self._core.render(list({**asked, **words}.items()), watch)
         seconds = time.perf_counter() - began
-        said = [Message("note", "", text) for text in idle(words)]
+        said = [Message("note", "", text) for text in idle(words, asked=asked)]
         image = Image(picture, name=self.name, seconds=seconds, messages=said) if picture else None
         if interrupted or image is None:
             raise RenderStopped(image)

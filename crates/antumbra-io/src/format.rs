@@ -13,6 +13,8 @@ pub enum Format {
     Ply,
     /// STL, ASCII or binary.
     Stl,
+    /// Mitsuba 3 XML.
+    Mitsuba,
     /// A latitude-longitude picture, Radiance `.hdr` or OpenEXR.
     Environment,
     /// A format that is known by name and not read.
@@ -30,7 +32,7 @@ const EXTENSIONS: &[(&str, Format)] = &[
     ("hdr", Format::Environment),
     ("pic", Format::Environment),
     ("exr", Format::Environment),
-    ("xml", Format::NotRead("Mitsuba 3 XML")),
+    ("xml", Format::Mitsuba),
     ("pbrt", Format::NotRead("pbrt-v4")),
     ("usd", Format::NotRead("USD")),
     ("usda", Format::NotRead("USD")),
@@ -66,7 +68,8 @@ const MAGIC: &[(&[u8], Format)] = &[
     (b"#usda", Format::NotRead("USD")),
     (b"Kaydara FBX", Format::NotRead("FBX")),
     (b"BLENDER", Format::NotRead("Blender")),
-    (b"<?xml", Format::NotRead("XML")),
+    (b"<?xml", Format::Mitsuba),
+    (b"<scene", Format::Mitsuba),
 ];
 
 /// The format of a file by its extension, else by its first bytes.
@@ -78,4 +81,4 @@ pub fn format_of(path: &Path, first: &[u8]) -> Option<Format> {
 }
 
 /// The formats that are read, for messages.
-pub const READS: &str = "glTF 2.0 (.gltf, .glb), OBJ, PLY, STL, and latitude-longitude pictures (.hdr, .exr)";
+pub const READS: &str = "glTF 2.0 (.gltf, .glb), OBJ, PLY, STL, Mitsuba 3 (.xml), and latitude-longitude pictures (.hdr, .exr)";

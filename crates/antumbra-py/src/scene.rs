@@ -137,12 +137,13 @@ impl PyScene {
 
     /// A scene from a file.
     #[staticmethod]
-    #[pyo3(signature = (path, up_axis = None, files_from = None, keep = true))]
+    #[pyo3(signature = (path, up_axis = None, files_from = None, parameters = Vec::new(), keep = true))]
     fn load(
         py: Python<'_>,
         path: &str,
         up_axis: Option<&str>,
         files_from: Option<PathBuf>,
+        parameters: Vec<(String, String)>,
         keep: bool,
     ) -> PyResult<PyScene> {
         let up_axis = match up_axis {
@@ -151,7 +152,7 @@ impl PyScene {
             Some("z") => UpAxis::Z,
             Some(other) => return Err(errors::choice(format!("there is no up axis \"{other}\" (y, z)"))),
         };
-        let options = ReadOptions { files_from, up_axis, ..ReadOptions::default() };
+        let options = ReadOptions { files_from, up_axis, parameters, ..ReadOptions::default() };
         let builder = py.detach(|| read_path(Path::new(path), &options)).map_err(|e| errors::read(&e))?;
         PyScene::of(on_stage(builder), path).finished(py, keep)
     }
@@ -252,6 +253,16 @@ impl PyScene {
     #[getter]
     fn name(&self) -> &str {
         &self.name
+    }
+
+    /// Settings that the file asks for, by name.
+    fn suggested(&self, py: Python<'_>) -> PyResult<HashMap<&'static str, String>> {
+        Ok(self.scene(py)?.suggested.iter().cloned().collect())
+    }
+
+    /// Parameters that the file declares: (name, value).
+    fn parameters(&self, py: Python<'_>) -> PyResult<Vec<(String, String)>> {
+        Ok(self.scene(py)?.parameters.clone())
     }
 
     /// Notes and warnings: (level, place, text).

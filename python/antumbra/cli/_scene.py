@@ -16,7 +16,7 @@ def options() -> list[Option]:
     """What every verb that opens a scene takes."""
     return [
         Option("-D", "definitions", group="Files", metavar="NAME=VALUE", multiple=True,
-               help="a parameter of a built-in scene (may be repeated)"),
+               help="a parameter of a built-in scene or of a Mitsuba file (may be repeated)"),
         Option("--up-axis", group="Files", metavar="NAME",
                help="the axis that points up in the file: y, z (default: what the format says)"),
         Option("--files-from", group="Files", metavar="DIR",
@@ -30,10 +30,10 @@ def open_scene(
     """Reads or builds it."""
     given = [definition(text) for text in definitions]
     if is_file(scene, up_axis, files_from):
-        if given:
+        if given and Path(scene).suffix.lower() != ".xml":
             raise click.UsageError(f"-D {definitions[0]}: {scene} has no parameters")
         try:
-            return _core.Scene.load(scene, up_axis, files_from, keep=False)
+            return _core.Scene.load(scene, up_axis, files_from, given, keep=False)
         except SceneError as problem:
             if scene in (name for name, _, _ in _core.builtins()):
                 here = f'What lies here under this name hides the built-in scene "{scene}": go to another folder.'

@@ -38,10 +38,11 @@ def run(
     _check(settings, path)
     opened = _scene.open_scene(scene, definitions, up_axis, files_from)
     _scene.tell(opened, quiet)
-    told = effects.idle(settings, path.suffix.lower())
+    asked = opened.suggested()
+    told = effects.idle(settings, path.suffix.lower(), asked)
     if not quiet:
         _say.messages("", [("note", "", text) for text in told])
-    head = f"  {opened.name} · {_facts(opened)} · {_plan(opened, settings)}"
+    head = f"  {opened.name} · {_facts(opened)} · {_plan(opened, {**asked, **settings})}"
     watched = sys.stderr.isatty()
     if watched and not quiet:
         print(head, file=sys.stderr, flush=True)

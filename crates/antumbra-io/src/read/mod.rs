@@ -5,6 +5,7 @@ mod environment;
 pub(crate) mod exr;
 mod gltf;
 pub(crate) mod hdr;
+mod mitsuba;
 mod obj;
 mod ply;
 mod polygon;
@@ -36,6 +37,8 @@ pub(crate) struct Context<'a> {
     pub root: Transform,
     /// The file's name ends in `.glb` (for the words of an error).
     pub named_glb: bool,
+    /// Values for the parameters that a file declares.
+    pub parameters: &'a [(String, String)],
     /// Decoded pictures.
     pub textures: Allowance,
     memory: Allowance,
@@ -89,6 +92,8 @@ pub struct ReadOptions {
     pub files_from: Option<PathBuf>,
     /// Which axis points up.
     pub up_axis: UpAxis,
+    /// Values for the parameters that the file declares (`default` of Mitsuba's XML).
+    pub parameters: Vec<(String, String)>,
     /// What may be asked for.
     pub limits: Limits,
 }
@@ -100,21 +105,23 @@ pub fn read(
     files: &dyn Files,
     limits: &Limits,
 ) -> Result<SceneBuilder, ReadError> {
-    read_as(format, bytes, &context(files, limits, UpAxis::Y, bytes.len(), false))
+    let options = ReadOptions { limits: *limits, ..ReadOptions::default() };
+    read_as(format, bytes, &context(files, &options, bytes.len(), false))
 }
 
 fn context<'a>(
     files: &'a dyn Files,
-    limits: &'a Limits,
-    up: UpAxis,
+    options: &'a ReadOptions,
     length: usize,
     named_glb: bool,
 ) -> Context<'a> {
+    let limits = &options.limits;
     let context = Context {
         files,
         limits,
-        root: up.transform(),
+        root: options.up_axis.transform(),
         named_glb,
+        parameters: &options.parameters,
         textures: Allowance::new(limits.texture_bytes),
         memory: Allowance::new(limits.expansion_base),
     };
@@ -129,6 +136,7 @@ fn read_as(format: Format, bytes: &[u8], context: &Context) -> Result<SceneBuild
         Format::Ply => ply::read(bytes, context),
         Format::Stl => stl::read(bytes, context),
         Format::Environment => environment::read(bytes, context),
+        Format::Mitsuba => mitsuba::read(bytes, context),
         Format::NotRead(name) => {
             let what = format!("{name} is not read yet");
             Err(ReadError::new("", what).hint(format!("antumbra reads {READS}.")))
@@ -157,7 +165,7 @@ fn read_file(path: &Path, options: &ReadOptions) -> Result<SceneBuilder, ReadErr
         ReadError::new("", what)
     })?;
     let named_glb = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("glb"));
-    let context = context(&files, limits, options.up_axis, bytes.len(), named_glb);
+    let context = context(&files, options, bytes.len(), named_glb);
     let mut scene = read_as(format, &bytes, &context)?;
     scene.name = path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
     Ok(scene)
@@ -188,6 +196,14 @@ impl Counted {
                 self.known.insert(text.clone(), self.said.len());
                 self.said.push((Message { level, place, text }, 1));
             }
+        }
+    }
+
+    /// Takes over what was said about a part, with the part's place before each.
+    pub(crate) fn take_from(&mut self, part: Counted, place: &str) {
+        for (message, n) in part.said {
+            let place = format!("{place}: {}", message.place);
+            (0..n).for_each(|_| self.say(message.level, place.clone(), message.text.clone()));
         }
     }
 

@@ -69,6 +69,10 @@ pub struct SceneBuilder {
     pub cameras: Vec<Camera>,
     /// The format cannot carry lights, or the file has none: a default sky is added if nothing shines.
     pub sky_if_unlit: bool,
+    /// Settings that the file asks for, in the words of the table of settings; a person's own stay above them.
+    pub suggested: Vec<(&'static str, String)>,
+    /// Parameters that the file declares, with their values.
+    pub parameters: Vec<(String, String)>,
     /// Things the reader had to say.
     pub messages: Vec<Message>,
     /// What the file says of itself ("glTF 2.0, Blender 4.5 exporter"), for `info`.

@@ -187,6 +187,8 @@ impl Parts {
             materials: Arc::new(builder.materials),
             textures: Arc::new(builder.textures),
             cameras: builder.cameras,
+            suggested: builder.suggested,
+            parameters: builder.parameters,
             messages: builder.messages,
             lights: Arc::new(self.lights),
             light_names: LightNames { names: self.names, slots },

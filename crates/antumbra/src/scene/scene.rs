@@ -82,6 +82,10 @@ pub struct Scene {
     pub textures: Arc<Vec<Texture>>,
     /// Cameras; the first is the default.
     pub cameras: Vec<Camera>,
+    /// Settings that the file asks for, in the words of the table of settings.
+    pub suggested: Vec<(&'static str, String)>,
+    /// Parameters that the file declares, with their values.
+    pub parameters: Vec<(String, String)>,
     /// Notes and warnings.
     pub messages: Vec<Message>,
     pub(super) lights: Arc<Vec<Light>>,

@@ -77,6 +77,20 @@ pub(super) fn read(bytes: &[u8], context: &Context) -> Result<SceneBuilder, Read
     Ok(scene)
 }
 
+/// All faces of an `.obj` that another format names, as one mesh without materials: its normals are the file's, or none.
+pub(super) fn mesh_of(bytes: &[u8], _: &Context, said: &mut Counted) -> Result<Mesh, ReadError> {
+    let mut obj = parse::parse(&plain(bytes))?;
+    obj.colors.clear();
+    obj.faces.iter_mut().for_each(|face| face.smoothing = 0);
+    let mut cutter = Triangulator::new();
+    let all: Vec<usize> = (0..obj.faces.len()).collect();
+    let mesh = mesh(&obj, "", &all, &Smooth::new(), &mut cutter);
+    if cutter.gave_up() {
+        said.warn("faces", super::INTRICATE);
+    }
+    Ok(mesh)
+}
+
 /// The faces of each group and material, in the order of the file.
 fn parts(obj: &Obj) -> Vec<(&str, &str, Vec<usize>)> {
     let mut parts: Vec<(&str, &str, Vec<usize>)> = Vec::new();

@@ -20,15 +20,8 @@ const CUT: &str = "The file is cut short, or its exporter is wrong.";
 /// Reads a `.ply`.
 pub(super) fn read(bytes: &[u8], context: &Context) -> Result<SceneBuilder, ReadError> {
     let header = header::read(bytes, context.limits)?;
-    let mut cutter = Triangulator::new();
-    let (mesh, small) = mesh(&header, bytes, context, &mut cutter)?;
     let (mut scene, mut said) = (SceneBuilder::default(), Counted::default());
-    if small > 0 {
-        said.warn("faces", format!("{small} with less than three corners are not drawn"));
-    }
-    if cutter.gave_up() {
-        said.warn("faces", super::INTRICATE);
-    }
+    let mesh = body(&header, bytes, context, &mut said)?;
     if mesh.triangles.indices.is_empty() {
         let hint = "Point clouds have no surface; make a mesh of them first.";
         return Err(ReadError::new("", "there is nothing to render: no faces").hint(hint));
@@ -46,6 +39,23 @@ pub(super) fn read(bytes: &[u8], context: &Context) -> Result<SceneBuilder, Read
     scene.sky_if_unlit = true;
     said.into_scene(&mut scene);
     Ok(scene)
+}
+
+/// The mesh of a `.ply` that another format names.
+pub(super) fn mesh_of(bytes: &[u8], context: &Context, said: &mut Counted) -> Result<Mesh, ReadError> {
+    body(&header::read(bytes, context.limits)?, bytes, context, said)
+}
+
+fn body(header: &Header, bytes: &[u8], context: &Context, said: &mut Counted) -> Result<Mesh, ReadError> {
+    let mut cutter = Triangulator::new();
+    let (mesh, small) = mesh(header, bytes, context, &mut cutter)?;
+    if small > 0 {
+        said.warn("faces", format!("{small} with less than three corners are not drawn"));
+    }
+    if cutter.gave_up() {
+        said.warn("faces", super::INTRICATE);
+    }
+    Ok(mesh)
 }
 
 /// The mesh and the number of faces that are too small. What follows the faces is not looked at.

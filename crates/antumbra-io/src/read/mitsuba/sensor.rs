@@ -1,0 +1,98 @@
+//! Sensors: perspective and thinlens.
+
+use antumbra::scene::{Camera, Projection};
+use antumbra_math::{DVec3, real};
+
+use super::Reader;
+use super::document::Element;
+use crate::error::ReadError;
+
+/// Adds the camera of a sensor with a film of this size.
+type Make = for<'a> fn(&mut Reader<'a>, &'a Element, [u32; 2]) -> Result<(), ReadError>;
+
+/// Every sensor plugin that is read. To add one: a function and a line here.
+const SENSORS: [(&str, Make); 2] = [("perspective", perspective), ("thinlens", thinlens)];
+
+impl<'a> Reader<'a> {
+    /// Adds a camera; what its film asks for counts for the first one.
+    pub(super) fn sensor(&mut self, element: &'a Element) -> Result<(), ReadError> {
+        let Some((_, make)) = SENSORS.iter().find(|s| s.0 == element.plugin()) else {
+            self.lacks(element, "left out");
+            return Ok(());
+        };
+        let first = self.scene.cameras.is_empty();
+        let size = self.film(element, first)?;
+        make(self, element, size)?;
+        self.name_the_unread(element);
+        Ok(())
+    }
+}
+
+/// A pinhole.
+fn perspective<'a>(reader: &mut Reader<'a>, element: &'a Element, size: [u32; 2]) -> Result<(), ReadError> {
+    let [w, h] = size.map(f64::from);
+    let half = half_height(element, w, h)?;
+    for name in ["near_clip", "far_clip"] {
+        if element.has(name) {
+            reader.said.note(element.at.words(), format!("\"{name}\" is not read: nothing is cut off"));
+        }
+    }
+    element.pass_over(&["shutter_open", "shutter_close", "focus_distance"]);
+    for name in ["principal_point_offset_x", "principal_point_offset_y"] {
+        if element.float(name, 0.0)? != 0.0 {
+            reader.said.warn(element.at.words(), format!("\"{name}\" is not read: drawn as 0"));
+        }
+    }
+    let world = reader.context.root.after(&element.transform("to_world")?);
+    if world.mirrors() {
+        reader.said.warn(element.at.words(), "the sensor's transform mirrors the picture: drawn as it stands");
+    }
+    let axis = |v: DVec3| world.vector(v).try_normalize();
+    let (Some(forward), Some(up)) = (axis(DVec3::Z), axis(DVec3::Y)) else {
+        return Err(element.at.error("the sensor's transform is singular"));
+    };
+    let eye = world.translation;
+    // The distance to the point looked at is only a matter of digits: as far as the eye stands from 0.
+    let far = eye.length().max(1.0);
+    let camera = Camera {
+        name: element.attribute("id").into(),
+        up,
+        projection: Projection::Perspective { vertical_fov: 2.0 * real::atan(half) },
+        ..Camera::perspective(eye, eye + forward * far, 40.0)
+    };
+    reader.scene.cameras.push(camera.sized(size[0], size[1]));
+    Ok(())
+}
+
+/// A pinhole in place of a lens.
+fn thinlens<'a>(reader: &mut Reader<'a>, element: &'a Element, size: [u32; 2]) -> Result<(), ReadError> {
+    element.property("aperture_radius");
+    reader.said.warn(element.at.words(), "the lens of a thinlens sensor is not read: everything is sharp");
+    perspective(reader, element, size)
+}
+
+/// Half the height of the picture at distance 1.
+fn half_height(element: &Element, w: f64, h: f64) -> Result<f64, ReadError> {
+    let fits = |fov: f64| fov > 0.0 && fov < 180.0;
+    let Some(fov) = element.number("fov")? else {
+        let text = element.string("focal_length")?.unwrap_or("50mm");
+        let length = element.one(text.trim_end_matches("mm").trim())?;
+        if length <= 0.0 {
+            return Err(element.at.error(format!("a focal length of {length} mm: it must be above 0")));
+        }
+        // Against the diagonal of 35-mm film, 36 × 24 mm.
+        let diagonal = (36f64 * 36.0 + 24.0 * 24.0).sqrt() / (2.0 * length);
+        return Ok(diagonal * h / (w * w + h * h).sqrt());
+    };
+    if !fits(fov) {
+        return Err(element.at.error(format!("\"fov\" = {fov}: an angle between 0 and 180 is needed")));
+    }
+    let half = real::tan(0.5 * fov.to_radians());
+    Ok(match element.choice("fov_axis", &["x", "y", "diagonal", "smaller", "larger"])? {
+        "y" => half,
+        "diagonal" => half * h / (w * w + h * h).sqrt(),
+        "smaller" if h < w => half,
+        "larger" if h >= w => half,
+        _ => half * h / w,
+    })
+}

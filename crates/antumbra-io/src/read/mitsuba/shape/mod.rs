@@ -1,0 +1,155 @@
+//! Shapes: what each plugin is made of, its look and its light.
+
+mod analytic;
+mod cube;
+mod file;
+mod round;
+
+use std::collections::HashMap;
+
+use antumbra::light;
+use antumbra::scene::{Emission, Material, MaterialId, Mesh, MeshId, Surface};
+use antumbra_math::{Rgb, Transform, Vec3};
+use antumbra_trace::Shape;
+
+use super::Reader;
+use super::document::Element;
+use crate::error::ReadError;
+
+/// What a shape plugin makes.
+enum Body {
+    /// A mesh of the scene in its place.
+    Mesh(MeshId, Transform),
+    /// A shape of the core.
+    Shape(Shape),
+    /// A parallelogram: corner and two sides, emitting along u × v.
+    Parallelogram([Vec3; 3], MeshId, Transform),
+}
+
+/// Makes the body of a shape: file → world, and whether its material has textures (so that it needs coordinates).
+type Make = for<'a> fn(&mut Reader<'a>, &'a Element, &Placing) -> Result<Body, ReadError>;
+
+/// How a shape lies in the world.
+struct Placing {
+    /// Shape → world.
+    world: Transform,
+    /// Texture coordinates matter.
+    textured: bool,
+    /// It gives off light.
+    shines: bool,
+}
+
+/// Every shape plugin that is read. To add one: a function and a line here.
+const SHAPES: [(&str, Make); 7] = [
+    ("ply", file::ply),
+    ("obj", file::obj),
+    ("rectangle", analytic::rectangle),
+    ("disk", analytic::disk),
+    ("cube", cube::cube),
+    ("sphere", round::sphere),
+    ("cylinder", round::cylinder),
+];
+
+/// Meshes that were made already, by what they are made of.
+pub(super) type Known = HashMap<String, MeshId>;
+
+impl<'a> Reader<'a> {
+    /// Places a shape, as an object, a light or both.
+    pub(super) fn shape(&mut self, element: &'a Element) -> Result<(), ReadError> {
+        self.announced += 1;
+        let Some((_, make)) = SHAPES.iter().find(|s| s.0 == element.plugin()) else {
+            self.lacks(element, "left out");
+            return Ok(());
+        };
+        let emission = self.area_emitter(element)?;
+        let (material, written_out) = self.look(element, emission.is_some())?;
+        let (name, context) = (name(element), self.context);
+        let world = context.root.after(&element.transform("to_world")?);
+        let textured = material.color.is_some() || material.normal.is_some() || material.metallic_roughness.is_some();
+        let placing = Placing { world, textured, shines: emission.is_some() };
+        let body = make(self, element, &placing)?;
+        self.name_the_unread(element);
+        let black = matches!(material.surface, Surface::Diffuse { albedo } if albedo.is_black());
+        if let (Body::Parallelogram([corner, u, v], ..), Some(radiance), true) = (&body, emission, black) {
+            self.scene.light(&name, light::Rectangle::new(*corner, *u, *v, radiance));
+            return Ok(());
+        }
+        let material = self.material_of(material, written_out, emission);
+        match body {
+            Body::Mesh(mesh, world) | Body::Parallelogram(_, mesh, world) => {
+                self.scene.place(&name, mesh, material, world);
+            }
+            Body::Shape(shape) => self.scene.shape(&name, shape, material),
+        }
+        Ok(())
+    }
+
+    /// The material of a shape, and its id if shapes may share it.
+    fn look(
+        &mut self,
+        element: &'a Element,
+        shines: bool,
+    ) -> Result<(Material, Option<MaterialId>), ReadError> {
+        let found = self.plugins(element, "bsdf")?;
+        match found[..] {
+            // A light without a look is black, all else is grey; both from their front.
+            [] => {
+                let albedo = Rgb::grey(if shines { 0.0 } else { 0.5 });
+                Ok((Material { one_sided: true, ..Material::diffuse(albedo) }, None))
+            }
+            [bsdf] => {
+                let id = self.bsdf(bsdf)?;
+                Ok((self.scene.materials[id as usize].clone(), Some(id)))
+            }
+            [_, second, ..] => Err(second.at.error(format!("{} has more than one bsdf", element.words()))),
+        }
+    }
+
+    fn material_of(
+        &mut self,
+        material: Material,
+        shared: Option<MaterialId>,
+        emission: Option<Rgb>,
+    ) -> MaterialId {
+        match (shared, emission) {
+            (Some(id), None) => id,
+            (None, None) => match self.scene.materials.iter().position(|m| *m == material) {
+                Some(id) => id as MaterialId,
+                None => self.scene.material(material),
+            },
+            (_, Some(radiance)) => {
+                let emission = Some(Emission { radiance, both_sides: false });
+                self.scene.material(Material { emission, ..material })
+            }
+        }
+    }
+
+    /// A mesh that is made once for each key; an empty one is a mesh without triangles.
+    fn mesh(
+        &mut self,
+        key: String,
+        make: impl FnOnce(&mut Reader<'a>) -> Result<Mesh, ReadError>,
+    ) -> Result<MeshId, ReadError> {
+        if let Some(id) = self.meshes.get(&key) {
+            return Ok(*id);
+        }
+        let mesh = make(self)?;
+        let id = self.scene.mesh(mesh);
+        self.meshes.insert(key, id);
+        Ok(id)
+    }
+}
+
+/// What people call a shape: its id, or the name of its file.
+fn name(element: &Element) -> String {
+    let file = element.children.iter().find(|c| c.given("name") == Some("filename"));
+    let stem = |path: &str| {
+        let last = path.rsplit(['/', '\\']).next().unwrap_or(path);
+        last.rsplit_once('.').map_or(last, |n| n.0).to_string()
+    };
+    match (element.given("id"), file) {
+        (Some(id), _) => id.to_string(),
+        (None, Some(file)) => stem(file.attribute("value")),
+        (None, None) => String::new(),
+    }
+}

@@ -1,0 +1,158 @@
+//! Textures: bitmap and checkerboard, and what a property is painted with.
+
+use std::collections::HashMap;
+use std::sync::Arc;
+
+use antumbra::scene::TextureId;
+use antumbra::texture::{Image, Texels, Texture, Wrap};
+use antumbra_math::Rgb;
+
+use super::Reader;
+use super::document::Element;
+use crate::error::ReadError;
+use crate::read::environment::environment_picture;
+use crate::read::texels;
+
+/// What a property is painted with.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Paint {
+    /// One colour.
+    Plain(Rgb),
+    /// A texture of the scene.
+    Texture(TextureId),
+}
+
+/// What was decoded already.
+#[derive(Default)]
+pub(super) struct Known {
+    textures: HashMap<*const Element, Option<TextureId>>,
+    /// By name and whether the colours are sRGB; `None` for those that cannot be read.
+    images: HashMap<(String, bool), Option<Arc<Image>>>,
+}
+
+/// Makes a texture; `None` after a warning if it cannot be used.
+type Make = for<'a> fn(&mut Reader<'a>, &'a Element) -> Result<Option<Texture>, ReadError>;
+
+/// Every texture plugin that is read. To add one: a function and a line here.
+const TEXTURES: [(&str, Make); 2] = [("bitmap", bitmap), ("checkerboard", checkerboard)];
+
+impl<'a> Reader<'a> {
+    /// What the property `name` is painted with, or its default.
+    pub(super) fn paint(&mut self, element: &'a Element, name: &str, default: f32) -> Result<Paint, ReadError> {
+        let Some(value) = element.property(name) else { return Ok(Paint::Plain(Rgb::grey(default))) };
+        let value = self.resolved(value)?;
+        if value.tag == "texture" {
+            let texture = self.texture(value)?;
+            return Ok(texture.map_or(Paint::Plain(Rgb::grey(default)), Paint::Texture));
+        }
+        self.plain(value).map(Paint::Plain)
+    }
+
+    /// The one colour of the property `name`: a texture counts by its mean, with a warning.
+    pub(super) fn color(&mut self, element: &'a Element, name: &str, default: f32) -> Result<Rgb, ReadError> {
+        match self.paint(element, name, default)? {
+            Paint::Plain(color) => Ok(color),
+            Paint::Texture(id) => {
+                let what = format!("a texture on \"{name}\" of {}: it counts by its mean", element.words());
+                self.said.warn(element.at.words(), what);
+                Ok(self.scene.textures[id as usize].image.mean())
+            }
+        }
+    }
+
+    /// The number of the property `name`; as [`Reader::color`].
+    pub(super) fn scalar(&mut self, element: &'a Element, name: &str, default: f64) -> Result<f64, ReadError> {
+        match element.property(name).map(|p| p.tag.as_str()) {
+            Some("texture" | "ref") => Ok(f64::from(self.color(element, name, default as f32)?.mean())),
+            _ => element.float(name, default),
+        }
+    }
+
+    fn plain(&mut self, value: &Element) -> Result<Rgb, ReadError> {
+        if value.is_spectral() {
+            let what = "a spectrum over wavelengths: antumbra has three colours, it counts by its mean";
+            self.said.warn(value.at.words(), what);
+        }
+        value.rgb()
+    }
+
+    /// The texture of an element, made once.
+    pub(super) fn texture(&mut self, element: &'a Element) -> Result<Option<TextureId>, ReadError> {
+        if let Some(known) = self.textures.textures.get(&std::ptr::from_ref(element)) {
+            return Ok(*known);
+        }
+        let made = match TEXTURES.iter().find(|t| t.0 == element.plugin()) {
+            Some((_, make)) => {
+                let texture = make(self, element)?;
+                self.name_the_unread(element);
+                texture.map(|texture| self.scene.texture(texture))
+            }
+            None => {
+                self.lacks(element, "drawn without it");
+                None
+            }
+        };
+        self.textures.textures.insert(std::ptr::from_ref(element), made);
+        Ok(made)
+    }
+
+    /// A picture beside the scene, decoded once; `None` after a warning if it cannot be read.
+    fn image(&mut self, element: &Element, srgb: bool) -> Result<Option<Arc<Image>>, ReadError> {
+        let name = element.filename()?;
+        let key = (name.to_string(), srgb);
+        if let Some(known) = self.textures.images.get(&key) {
+            return Ok(known.clone());
+        }
+        let opened = self.context.files.open(name).map_err(|e| e.to_string());
+        let image = match opened.and_then(|bytes| self.decode(&bytes, srgb)) {
+            Ok(image) => Some(Arc::new(image)),
+            Err(why) => {
+                let what = format!("the picture \"{name}\": {why}: drawn without it");
+                self.said.warn(element.at.words(), what);
+                None
+            }
+        };
+        self.textures.images.insert(key, image.clone());
+        Ok(image)
+    }
+
+    /// PNG, JPEG, WebP; OpenEXR and Radiance HDR, which are linear.
+    pub(super) fn decode(&self, bytes: &[u8], srgb: bool) -> Result<Image, String> {
+        match bytes {
+            [0x76, 0x2f, 0x31, 0x01, ..] | [b'#', b'?', ..] => {
+                let picture = environment_picture(bytes, self.context.limits).map_err(|e| e.to_string())?;
+                let image = Arc::unwrap_or_clone(picture.image);
+                let pixels = u64::from(image.width) * u64::from(image.height);
+                let room = self.context.textures.take(pixels, 12);
+                room.map_err(|_| "the pictures of the scene are too large together".to_string())?;
+                Ok(image)
+            }
+            _ => texels::decode(bytes, srgb, self.context),
+        }
+    }
+}
+
+/// `bitmap`: a picture; v = 0 is its top row.
+fn bitmap<'a>(reader: &mut Reader<'a>, element: &'a Element) -> Result<Option<Texture>, ReadError> {
+    let raw = element.boolean("raw", false)?;
+    let wrap = match element.choice("wrap_mode", &["repeat", "mirror", "clamp"])? {
+        "mirror" => Wrap::Mirror,
+        "clamp" => Wrap::Clamp,
+        _ => Wrap::Repeat,
+    };
+    let nearest = element.choice("filter_type", &["bilinear", "nearest"])? == "nearest";
+    // How a texture is stored or sampled inside of Mitsuba changes no picture.
+    element.pass_over(&["format", "accel"]);
+    let map = element.uv_transform()?;
+    let image = reader.image(element, !raw)?;
+    Ok(image.map(|image| Texture { wrap: [wrap; 2], nearest, map, ..Texture::new(image) }))
+}
+
+/// `checkerboard`: two by two fields over the unit square.
+fn checkerboard<'a>(reader: &mut Reader<'a>, element: &'a Element) -> Result<Option<Texture>, ReadError> {
+    let (first, second) = (reader.color(element, "color0", 0.4)?, reader.color(element, "color1", 0.2)?);
+    let (a, b) = (first.0, second.0);
+    let image = Image::new(2, 2, Texels::Float(vec![a, b, b, a]));
+    let map = element.uv_transform()?;
+    Ok(image.map(|image| Texture { nearest: true, map, ..Texture::new(Arc::new(image)) }))
+}
