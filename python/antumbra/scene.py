@@ -43,7 +43,7 @@ def load(
     files_from: str | PathLike[str] | None = None,
     parameters: Mapping[str, str | float] | None = None,
 ) -> Scene:
-    """Reads a scene: glTF/GLB, OBJ, PLY, STL, Mitsuba 3 XML, or a lat-long picture (HDR, EXR: a built-in scene under it).
+    """Reads a scene: glTF/GLB, OBJ, PLY, STL, Mitsuba 3 XML, or a lat-long picture (a built-in scene under it).
 
     `up_axis`: "y" or "z", the axis that points up in the file; `files_from`: the folder that the file's own paths
     may reach (default: its own folder); `parameters`: values for what a Mitsuba file declares as `<default>`. The
@@ -55,7 +55,10 @@ def load(
     >>> am.load("room.glb").render().save("room.exr")  # doctest: +SKIP
     """
     folder = None if files_from is None else text("files_from", files_from)
-    given = [(name, value if isinstance(value, str) else f"{value:g}") for name, value in (parameters or {}).items()]
+    given = [
+        (name, value if isinstance(value, str) else f"{value:g}")
+        for name, value in (parameters or {}).items()
+    ]
     return Scene._of(_core.Scene.load(text("path", path), up_axis, folder, given))
 
 

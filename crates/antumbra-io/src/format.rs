@@ -81,4 +81,5 @@ pub fn format_of(path: &Path, first: &[u8]) -> Option<Format> {
 }
 
 /// The formats that are read, for messages.
-pub const READS: &str = "glTF 2.0 (.gltf, .glb), OBJ, PLY, STL, Mitsuba 3 (.xml), and latitude-longitude pictures (.hdr, .exr)";
+pub const READS: &str =
+    "glTF 2.0 (.gltf, .glb), OBJ, PLY, STL, Mitsuba 3 (.xml), and latitude-longitude pictures (.hdr, .exr)";

@@ -16,7 +16,7 @@ def options() -> list[Option]:
     """What every verb that opens a scene takes."""
     return [
         Option("-D", "definitions", group="Files", metavar="NAME=VALUE", multiple=True,
-               help="a parameter of a built-in scene or of a Mitsuba file (may be repeated)"),
+               help="a parameter of a built-in scene or an XML file (may be repeated)"),
         Option("--up-axis", group="Files", metavar="NAME",
                help="the axis that points up in the file: y, z (default: what the format says)"),
         Option("--files-from", group="Files", metavar="DIR",

@@ -3,7 +3,7 @@
 use antumbra_math::{DVec2, DVec3, Rgb, World, closed, real, warp};
 use antumbra_trace::{NO_PRIM, PrimId, Shape};
 
-use super::flat::Front;
+use super::flat::{Front, lies_on};
 use super::square::Square;
 use super::{LightBounds, LightHit, LightKind, LightPoints, LightSample, LightSurface, OutlinePoint};
 use crate::receiver::Receiver;
@@ -87,6 +87,9 @@ impl LightKind for Disk {
     /// p(ω) = r² / (A cos θ′), times the density over the square.
     #[inline]
     fn sample(&self, at: &Receiver, u: [f32; 2], how: LightPoints) -> Option<LightSample> {
+        if lies_on(at, self.prim, 1) {
+            return None;
+        }
         let (front, square) = (self.front(), self.square(at.p.as_dvec3(), how));
         let x = square.sample(u.map(f64::from));
         let d = warp::disk(x.map(|x| x as f32));

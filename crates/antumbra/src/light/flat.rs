@@ -1,10 +1,11 @@
 //! What triangle, rectangle and disk share: a point on a flat front, and how it is seen.
 
 use antumbra_math::{DVec3, Rgb, World};
-use antumbra_trace::{PrimId, start};
+use antumbra_trace::{NO_PRIM, PrimId, start};
 
 use super::{End, LightBounds, LightHit, LightSample, OutlinePoint};
 use crate::density::Density;
+use crate::receiver::Receiver;
 
 /// The plane of a flat light and how far its numbers reach.
 #[derive(Clone, Copy)]
@@ -147,6 +148,13 @@ pub(super) fn far_irradiance(to: World, area: World, reach2: f32, n: World) -> O
 #[inline]
 pub(super) fn lit(signed: f32, both_sides: bool) -> f32 {
     if both_sides { signed.abs() } else { signed.max(0.0) }
+}
+
+/// The receiver lies on the flat light itself (primitives `first`, `first` + 1, …), which never lights itself: its own
+/// rounding decides on which side of the plane it is.
+#[inline]
+pub(super) fn lies_on(at: &Receiver, first: PrimId, primitives: u32) -> bool {
+    first != NO_PRIM && at.prim.wrapping_sub(first) < primitives
 }
 
 /// q lifted by the start offset of LAW §5 toward `n`.

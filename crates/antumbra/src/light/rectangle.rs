@@ -4,7 +4,7 @@ use antumbra_math::spherical::{SphericalRectangle, SphericalTriangle};
 use antumbra_math::{DVec2, DVec3, Rgb, World, closed};
 use antumbra_trace::{NO_PRIM, PrimId};
 
-use super::flat::{Front, along_edges, far_irradiance, largest, lit};
+use super::flat::{Front, along_edges, far_irradiance, largest, lies_on, lit};
 use super::square::Square;
 use super::{LightBounds, LightHit, LightKind, LightPoints, LightSample, LightSurface, OutlinePoint};
 use crate::receiver::Receiver;
@@ -145,7 +145,7 @@ impl LightKind for Rectangle {
     #[inline]
     fn sample(&self, at: &Receiver, u: [f32; 2], how: LightPoints) -> Option<LightSample> {
         let p = at.p.as_dvec3();
-        if !self.faces(p) {
+        if !self.faces(p) || lies_on(at, self.first_prim, 2) {
             return None;
         }
         let front = self.front();

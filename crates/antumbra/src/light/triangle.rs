@@ -4,7 +4,7 @@ use antumbra_math::spherical::SphericalTriangle;
 use antumbra_math::{DVec2, DVec3, Rgb, World, closed, warp};
 use antumbra_trace::{NO_PRIM, PrimId};
 
-use super::flat::{Front, along_edges, far_irradiance, largest, lit};
+use super::flat::{Front, along_edges, far_irradiance, largest, lies_on, lit};
 use super::square::Square;
 use super::{LightBounds, LightHit, LightKind, LightPoints, LightSample, LightSurface, OutlinePoint};
 use crate::receiver::Receiver;
@@ -94,6 +94,9 @@ impl LightKind for Triangle {
     /// Solid angle: Arvo 1995. Area: p(ω) = r² / (A cos θ′).
     #[inline]
     fn sample(&self, at: &Receiver, u: [f32; 2], how: LightPoints) -> Option<LightSample> {
+        if lies_on(at, self.first_prim, 1) {
+            return None;
+        }
         let front = self.front();
         let [a, b, c] = self.corners();
         if how == LightPoints::SolidAngle

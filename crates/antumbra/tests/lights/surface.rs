@@ -5,7 +5,7 @@ use antumbra::math::World;
 use antumbra::receiver::Receiver;
 use antumbra::trace::{NO_PRIM, Shape};
 
-use crate::{draws, receivers};
+use crate::{HOWS, draws, receivers};
 
 /// A hair inside of the outline the light is hit, a hair outside it is missed.
 #[test]
@@ -72,6 +72,28 @@ fn lies_on(kind: &str, at: &Receiver, [a, b, c]: [World; 3], q: World) {
         // Corners of a rectangle are rounded once more.
         assert!(inside > -1e-6 * extent, "{kind}: {q} is {inside} beyond an edge");
     }
+}
+
+/// A flat light never lights a point of itself, though rounding puts that point in front of its plane or behind it.
+#[test]
+fn no_flat_light_shines_on_itself() {
+    let flat = |l: &Light| matches!(l, Light::Triangle(_) | Light::Rectangle(_) | Light::Disk(_));
+    let mut points = 0;
+    for (kind, light) in Light::examples().into_iter().filter(|(_, l)| flat(l)) {
+        let mut light = light;
+        light.set_first_prim(40);
+        for outside in receivers() {
+            for s in draws(&light, &outside, LightPoints::Area, 50, 9).flatten() {
+                let itself = Receiver { p: outside.p + s.wi * s.distance, prim: s.prim, ..outside };
+                points += 1;
+                for how in HOWS {
+                    let none = draws(&light, &itself, how, 20, 10).flatten().next().is_none();
+                    assert!(none, "{kind} at {}", itself.p);
+                }
+            }
+        }
+    }
+    assert!(points > 500, "{points} points of flat lights were looked at");
 }
 
 /// The front that a surface shows is the front that shines.

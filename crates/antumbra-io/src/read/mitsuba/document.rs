@@ -113,8 +113,9 @@ impl Loader<'_> {
     fn file(&mut self, bytes: &[u8], name: Rc<str>) -> Result<Vec<Element>, ReadError> {
         let here = |place: String| if name.is_empty() { place } else { format!("{name}: {place}") };
         let text = plain(bytes);
-        let text = std::str::from_utf8(&text)
-            .map_err(|e| ReadError::new(here(format!("byte {}", e.valid_up_to())), "this is not UTF-8 text"))?;
+        let text = std::str::from_utf8(&text).map_err(|e| {
+            ReadError::new(here(format!("byte {}", e.valid_up_to())), "this is not UTF-8 text")
+        })?;
         let most = (bytes.len() as u64 / 2).clamp(16, 1 << 27) as u32;
         let options = ParsingOptions { nodes_limit: most, ..ParsingOptions::default() };
         let document = Document::parse_with_options(text, options).map_err(|e| {
@@ -183,7 +184,8 @@ impl Loader<'_> {
         };
         let name = self.filled(name).map_err(|what| at.error(what))?;
         if self.above.len() >= INCLUDES || self.above.contains(&name) {
-            let what = format!("the file \"{name}\" includes itself, or more than {INCLUDES} lie in each other");
+            let what =
+                format!("the file \"{name}\" includes itself, or more than {INCLUDES} lie in each other");
             return Err(at.error(what));
         }
         let bytes = self.context.files.open(&name);
@@ -242,7 +244,9 @@ fn check_version(root: Node, at: &Place) -> Result<(), ReadError> {
     let version = root.attribute("version").unwrap_or("3");
     let old = version.starts_with("0.") || version.starts_with("1.");
     if old {
-        let what = format!("this scene is of Mitsuba {version}; Mitsuba 3 writes its names otherwise (toWorld is to_world)");
+        let what = format!(
+            "this scene is of Mitsuba {version}; Mitsuba 3 writes its names otherwise (toWorld is to_world)"
+        );
         let hint = "Loading it once with Mitsuba 3 and saving it (mi.xml.dict_to_xml) brings it up to date.";
         return Err(at.error(what).hint(hint));
     }

@@ -53,7 +53,8 @@ impl<'a> Reader<'a> {
     fn amount(&mut self, element: &'a Element, name: &str, default: f32) -> Result<Rgb, ReadError> {
         let amount = self.color(element, name, default)?;
         if amount.0.iter().any(|c| *c < 0.0) {
-            let what = format!("\"{name}\" of {} is {:?}: it must not be negative", element.words(), amount.0);
+            let what =
+                format!("\"{name}\" of {} is {:?}: it must not be negative", element.words(), amount.0);
             return Err(element.at.error(what));
         }
         Ok(amount)
@@ -79,7 +80,8 @@ fn spot<'a>(reader: &mut Reader<'a>, element: &'a Element, world: &Transform) ->
     let cutoff = element.float("cutoff_angle", 20.0)?;
     let beam = element.float("beam_width", 0.75 * cutoff)?;
     if !(beam > 0.0 && beam <= cutoff && cutoff <= 90.0) {
-        let what = format!("a cone from beam_width {beam}° to cutoff_angle {cutoff}°: 0 < beam ≤ cutoff ≤ 90");
+        let what =
+            format!("a cone from beam_width {beam}° to cutoff_angle {cutoff}°: 0 < beam ≤ cutoff ≤ 90");
         return Err(element.at.error(what));
     }
     let Some(forward) = world.vector(DVec3::Z).try_normalize() else {
@@ -97,7 +99,11 @@ fn spot<'a>(reader: &mut Reader<'a>, element: &'a Element, world: &Transform) ->
 }
 
 /// `direction` is where the light goes, or +z of its transform.
-fn directional<'a>(reader: &mut Reader<'a>, element: &'a Element, world: &Transform) -> Result<(), ReadError> {
+fn directional<'a>(
+    reader: &mut Reader<'a>,
+    element: &'a Element,
+    world: &Transform,
+) -> Result<(), ReadError> {
     let irradiance = reader.amount(element, "irradiance", 1.0)?;
     let given = element.vector("direction")?.map(|d| reader.context.root.vector(d));
     let direction = given.unwrap_or_else(|| world.vector(DVec3::Z)).try_normalize();

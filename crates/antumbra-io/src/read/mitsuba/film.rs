@@ -8,7 +8,12 @@ use crate::error::ReadError;
 
 impl<'a> Reader<'a> {
     /// A setting that the file asks for; a person's own stays above it.
-    pub(super) fn suggest(&mut self, at: &Element, name: &'static str, value: String) -> Result<(), ReadError> {
+    pub(super) fn suggest(
+        &mut self,
+        at: &Element,
+        name: &'static str,
+        value: String,
+    ) -> Result<(), ReadError> {
         let checked = Settings::default().set(name, &value);
         checked.map_err(|e| at.at.error(e.what))?;
         self.scene.suggested.retain(|s| s.0 != name);
@@ -31,8 +36,12 @@ impl<'a> Reader<'a> {
         film.pass_over(&["file_format", "pixel_format", "component_format", "banner"]);
         film.pass_over(&["high_quality_edges", "sample_border", "compensate"]);
         let size = [film.count("width")?.unwrap_or(768), film.count("height")?.unwrap_or(576)];
-        let sized = Settings::default().set("size", &format!("{}x{}", size[0], size[1]));
-        sized.map_err(|e| film.at.error(e.what))?;
+        let [w, h] = size;
+        let sized = Settings::default().set("size", &format!("{w}x{h}"));
+        sized.map_err(|e| {
+            let why = e.what.split_once(": ").map_or(e.what.as_str(), |w| w.1);
+            film.at.error(format!("a film of {w} x {h} pixels: {why}"))
+        })?;
         if first {
             self.crop(film, size)?;
             self.filter(film)?;
@@ -63,12 +72,17 @@ impl<'a> Reader<'a> {
         match name {
             "box" | "tent" | "gaussian" => {
                 if at.float("stddev", 0.5)? != 0.5 || at.float("radius", 1.0)? != 1.0 {
-                    self.said.warn(at.at.words(), "the width of the pixel filter is not read: drawn with its usual one");
+                    self.said.warn(
+                        at.at.words(),
+                        "the width of the pixel filter is not read: drawn with its usual one",
+                    );
                 }
                 self.suggest(at, "filter", name.into())
             }
             _ => {
-                let what = format!("the filter \"{name}\" has negative lobes or is unknown: drawn with blackman-harris");
+                let what = format!(
+                    "the filter \"{name}\" has negative lobes or is unknown: drawn with blackman-harris"
+                );
                 at.children.iter().for_each(|c| c.used.set(true));
                 self.said.warn(at.at.words(), what);
                 Ok(())

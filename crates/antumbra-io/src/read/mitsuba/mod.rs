@@ -123,11 +123,10 @@ impl<'a> Reader<'a> {
         }
         let shines = self.scene.materials.iter().any(|m| m.emission.is_some());
         if self.scene.lights.is_empty() && !shines {
-            self.scene.say(Level::Warning, "", "no emitter in the file: the picture is black (`environment` to choose)");
+            self.scene.say(Level::Warning, "", "no emitter that is read in the file");
         }
         if self.scene.cameras.is_empty() {
-            let what = "no sensor that is read in the file: looked at from a camera that sees everything";
-            self.scene.say(Level::Warning, "", what);
+            self.scene.say(Level::Warning, "", "no sensor that is read in the file");
         }
         self.said.into_scene(&mut self.scene);
         Ok(self.scene)

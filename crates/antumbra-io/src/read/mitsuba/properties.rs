@@ -8,8 +8,18 @@ use crate::read::text::show;
 
 /// Tags of values, not of plugins.
 const VALUES: [&str; 12] = [
-    "float", "integer", "boolean", "string", "point", "vector", "rgb", "spectrum", "transform", "texture",
-    "ref", "blackbody",
+    "float",
+    "integer",
+    "boolean",
+    "string",
+    "point",
+    "vector",
+    "rgb",
+    "spectrum",
+    "transform",
+    "texture",
+    "ref",
+    "blackbody",
 ];
 
 impl Element {
@@ -28,9 +38,11 @@ impl Element {
 
     /// The value or texture that is called `name`.
     pub fn property(&self, name: &str) -> Option<&Element> {
-        let found = self.children.iter().rev().find(|c| {
-            c.given("name") == Some(name) && VALUES.contains(&c.tag.as_str())
-        })?;
+        let found = self
+            .children
+            .iter()
+            .rev()
+            .find(|c| c.given("name") == Some(name) && VALUES.contains(&c.tag.as_str()))?;
         found.used.set(true);
         Some(found)
     }
@@ -144,7 +156,8 @@ impl Element {
 
     /// A finite number.
     pub fn one(&self, word: &str) -> Result<f64, ReadError> {
-        let number: Option<f64> = word.parse().ok().filter(|x: &f64| x.is_finite() && (*x as f32).is_finite());
+        let number: Option<f64> =
+            word.parse().ok().filter(|x: &f64| x.is_finite() && (*x as f32).is_finite());
         number.ok_or_else(|| {
             let name = self.given("name").map(|n| format!("\"{n}\" = ")).unwrap_or_default();
             self.at.error(format!("{name}{}: a number is needed", show(word.as_bytes())))
@@ -165,7 +178,9 @@ impl Element {
             },
             "spectrum" if text.contains(':') => self.pairs(text),
             "float" | "spectrum" => self.numbers::<1>("value").map(|[g]| Rgb::grey(g as f32)),
-            tag => Err(self.at.error(format!("<{tag}> is no colour: <rgb>, <spectrum> or <float> is needed"))),
+            tag => {
+                Err(self.at.error(format!("<{tag}> is no colour: <rgb>, <spectrum> or <float> is needed")))
+            }
         }
     }
 

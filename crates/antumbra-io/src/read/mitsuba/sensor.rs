@@ -45,7 +45,9 @@ fn perspective<'a>(reader: &mut Reader<'a>, element: &'a Element, size: [u32; 2]
     }
     let world = reader.context.root.after(&element.transform("to_world")?);
     if world.mirrors() {
-        reader.said.warn(element.at.words(), "the sensor's transform mirrors the picture: drawn as it stands");
+        reader
+            .said
+            .warn(element.at.words(), "the sensor's transform mirrors the picture: drawn as it stands");
     }
     let axis = |v: DVec3| world.vector(v).try_normalize();
     let (Some(forward), Some(up)) = (axis(DVec3::Z), axis(DVec3::Y)) else {

@@ -38,7 +38,12 @@ const TEXTURES: [(&str, Make); 2] = [("bitmap", bitmap), ("checkerboard", checke
 
 impl<'a> Reader<'a> {
     /// What the property `name` is painted with, or its default.
-    pub(super) fn paint(&mut self, element: &'a Element, name: &str, default: f32) -> Result<Paint, ReadError> {
+    pub(super) fn paint(
+        &mut self,
+        element: &'a Element,
+        name: &str,
+        default: f32,
+    ) -> Result<Paint, ReadError> {
         let Some(value) = element.property(name) else { return Ok(Paint::Plain(Rgb::grey(default))) };
         let value = self.resolved(value)?;
         if value.tag == "texture" {
@@ -61,7 +66,12 @@ impl<'a> Reader<'a> {
     }
 
     /// The number of the property `name`; as [`Reader::color`].
-    pub(super) fn scalar(&mut self, element: &'a Element, name: &str, default: f64) -> Result<f64, ReadError> {
+    pub(super) fn scalar(
+        &mut self,
+        element: &'a Element,
+        name: &str,
+        default: f64,
+    ) -> Result<f64, ReadError> {
         match element.property(name).map(|p| p.tag.as_str()) {
             Some("texture" | "ref") => Ok(f64::from(self.color(element, name, default as f32)?.mean())),
             _ => element.float(name, default),

@@ -59,7 +59,9 @@ impl Element {
             }
             "matrix" => self.matrix(),
             "lookat" => self.look_at(),
-            tag => Err(self.at.error(format!("<{tag}> is no step of a transform"))
+            tag => Err(self
+                .at
+                .error(format!("<{tag}> is no step of a transform"))
                 .hint("translate, rotate, scale, matrix and lookat are.")),
         }
     }

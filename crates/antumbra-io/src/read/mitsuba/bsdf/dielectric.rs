@@ -43,7 +43,8 @@ pub(super) fn index(element: &Element, name: &str, default: f64) -> Result<f64, 
         let known = NAMED.iter().find(|n| n.0.eq_ignore_ascii_case(word));
         known.map(|n| n.1).ok_or_else(|| {
             let names: Vec<_> = NAMED.iter().map(|n| n.0).collect();
-            let what = format!("\"{name}\" = {}: no index of refraction has this name", show(word.as_bytes()));
+            let what =
+                format!("\"{name}\" = {}: no index of refraction has this name", show(word.as_bytes()));
             value.at.error(what).hint(format!("A number, or one of {}.", names.join(", ")))
         })?
     } else {
@@ -69,18 +70,28 @@ pub(super) fn dielectric<'a>(reader: &mut Reader<'a>, element: &'a Element) -> R
 }
 
 /// Ground glass.
-pub(super) fn roughdielectric<'a>(reader: &mut Reader<'a>, element: &'a Element) -> Result<Material, ReadError> {
+pub(super) fn roughdielectric<'a>(
+    reader: &mut Reader<'a>,
+    element: &'a Element,
+) -> Result<Material, ReadError> {
     let facets = reader.facets(element)?;
     colored(reader, element, Material::dielectric(relative(element, GLASS)?, Some(facets)))
 }
 
 /// A pane.
-pub(super) fn thindielectric<'a>(reader: &mut Reader<'a>, element: &'a Element) -> Result<Material, ReadError> {
+pub(super) fn thindielectric<'a>(
+    reader: &mut Reader<'a>,
+    element: &'a Element,
+) -> Result<Material, ReadError> {
     colored(reader, element, Material::thin_dielectric(relative(element, GLASS)?))
 }
 
 /// With its factors of what is reflected and what is let through.
-fn colored<'a>(reader: &mut Reader<'a>, element: &'a Element, glass: Material) -> Result<Material, ReadError> {
+fn colored<'a>(
+    reader: &mut Reader<'a>,
+    element: &'a Element,
+    glass: Material,
+) -> Result<Material, ReadError> {
     let reflected: Rgb = reader.color(element, "specular_reflectance", 1.0)?;
     let mut glass = reader.painted(glass, element, "specular_transmittance", 1.0)?;
     reflect(&mut glass.surface, reflected);

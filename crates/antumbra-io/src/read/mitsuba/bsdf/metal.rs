@@ -20,7 +20,10 @@ pub(super) fn conductor<'a>(reader: &mut Reader<'a>, element: &'a Element) -> Re
 }
 
 /// Rough metal.
-pub(super) fn roughconductor<'a>(reader: &mut Reader<'a>, element: &'a Element) -> Result<Material, ReadError> {
+pub(super) fn roughconductor<'a>(
+    reader: &mut Reader<'a>,
+    element: &'a Element,
+) -> Result<Material, ReadError> {
     let facets = reader.facets(element)?;
     // A metal that reflects all light: η = 0 has no direction of its own.
     let perfect = Metal { eta: Rgb::grey(1e-6), k: Rgb::WHITE };

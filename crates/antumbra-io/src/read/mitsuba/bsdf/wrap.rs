@@ -67,7 +67,9 @@ pub(super) fn normalmap<'a>(reader: &mut Reader<'a>, element: &'a Element) -> Re
     // How Mitsuba treats normals that point below the surface; antumbra has one way.
     element.pass_over(&["flip_invalid_normals", "use_shadowing_function"]);
     match reader.paint(element, "normalmap", 0.0)? {
-        Paint::Texture(texture) => Ok(Material { normal: Some(NormalMap { texture, scale: 1.0 }), ..material }),
+        Paint::Texture(texture) => {
+            Ok(Material { normal: Some(NormalMap { texture, scale: 1.0 }), ..material })
+        }
         Paint::Plain(_) => Ok(material),
     }
 }
@@ -76,7 +78,8 @@ pub(super) fn normalmap<'a>(reader: &mut Reader<'a>, element: &'a Element) -> Re
 pub(super) fn bumpmap<'a>(reader: &mut Reader<'a>, element: &'a Element) -> Result<Material, ReadError> {
     let (material, _) = reader.inner(element)?;
     element.children.iter().for_each(|c| c.used.set(true));
-    let what = format!("{}: heights are not read (a normal map is): drawn without its bumps", element.words());
+    let what =
+        format!("{}: heights are not read (a normal map is): drawn without its bumps", element.words());
     reader.said.warn(element.at.words(), what);
     Ok(material)
 }

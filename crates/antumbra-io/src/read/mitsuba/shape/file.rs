@@ -23,12 +23,20 @@ struct Dress {
 }
 
 /// `ply`.
-pub(super) fn ply<'a>(reader: &mut Reader<'a>, element: &'a Element, at: &Placing) -> Result<Body, ReadError> {
+pub(super) fn ply<'a>(
+    reader: &mut Reader<'a>,
+    element: &'a Element,
+    at: &Placing,
+) -> Result<Body, ReadError> {
     from_file(reader, element, at, ply::mesh_of, false)
 }
 
 /// `obj`: one mesh, whatever groups and materials the file has.
-pub(super) fn obj<'a>(reader: &mut Reader<'a>, element: &'a Element, at: &Placing) -> Result<Body, ReadError> {
+pub(super) fn obj<'a>(
+    reader: &mut Reader<'a>,
+    element: &'a Element,
+    at: &Placing,
+) -> Result<Body, ReadError> {
     from_file(reader, element, at, obj::mesh_of, true)
 }
 

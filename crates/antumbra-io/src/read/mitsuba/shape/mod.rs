@@ -65,7 +65,8 @@ impl<'a> Reader<'a> {
         let (material, written_out) = self.look(element, emission.is_some())?;
         let (name, context) = (name(element), self.context);
         let world = context.root.after(&element.transform("to_world")?);
-        let textured = material.color.is_some() || material.normal.is_some() || material.metallic_roughness.is_some();
+        let textured =
+            material.color.is_some() || material.normal.is_some() || material.metallic_roughness.is_some();
         let placing = Placing { world, textured, shines: emission.is_some() };
         let body = make(self, element, &placing)?;
         self.name_the_unread(element);

@@ -47,7 +47,8 @@ pub(super) fn sphere(reader: &mut Reader, element: &Element, at: &Placing) -> Re
         return Ok(Body::Shape(Shape::Sphere { center, radius: scale * radius as f32 }));
     }
     let mesh = reader.mesh(format!("sphere {flipped}"), |_| Ok(ball(flipped)))?;
-    let own = Transform { linear: antumbra_math::DMat3::from_diagonal(DVec3::splat(radius)), translation: center };
+    let own =
+        Transform { linear: antumbra_math::DMat3::from_diagonal(DVec3::splat(radius)), translation: center };
     Ok(Body::Mesh(mesh, at.world.after(&own)))
 }
 
@@ -59,7 +60,8 @@ pub(super) fn cylinder(reader: &mut Reader, element: &Element, at: &Placing) -> 
     let radius = element.float("radius", 1.0)?;
     let axis = q - p;
     if radius <= 0.0 || axis == DVec3::ZERO {
-        let what = format!("a cylinder of radius {radius} and length {}: both must be above 0", axis.length());
+        let what =
+            format!("a cylinder of radius {radius} and length {}: both must be above 0", axis.length());
         return Err(element.at.error(what));
     }
     if !(at.textured || flipped || at.shines)
