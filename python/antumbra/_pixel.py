@@ -1,8 +1,12 @@
-"""A pixel and the rays that make it: plain facts."""
+"""A pixel and the rays that make it: arrays, of which a row is made when it is asked for."""
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any, NamedTuple, overload
+
+import numpy as np
+from numpy.typing import NDArray
 
 Triple = tuple[float, float, float]
 
@@ -47,6 +51,55 @@ class LightRay(NamedTuple):
         """r²."""
         return self.distance * self.distance
 
+    @property
+    def pdf_area(self) -> float | None:
+        """The same density per area of the light [1/m²], `pdf` · cos θ′ / r²; None where the light has no area."""
+        found = self.pdf * self.cos_light / self.distance2 if self.distance > 0 else np.nan
+        return found if self.point is not None and np.isfinite(found) else None
+
+
+class LightRays(Sequence[LightRay]):
+    """Rays to the lights, as `LightRay` one by one, or all at once: `array("cos")` is that of all, (N,) or (N, 3).
+
+    In the arrays, what is not there is −1 (light, blocker, visible) or NaN (point).
+    """
+
+    def __init__(self, arrays: Mapping[str, NDArray[Any]], names: Sequence[str]) -> None:
+        """`names`: of the objects, by the numbers of `blocker`."""
+        self._arrays, self._names = arrays, names
+
+    def array(self, name: str) -> NDArray[Any]:
+        """What `LightRay` calls so, of all rays."""
+        return self._arrays[name]
+
+    def __len__(self) -> int:
+        """How many."""
+        return len(self._arrays["pdf"])
+
+    @overload
+    def __getitem__(self, index: int) -> LightRay: ...
+    @overload
+    def __getitem__(self, index: slice) -> LightRays: ...
+    def __getitem__(self, index: int | slice) -> LightRay | LightRays:
+        """One ray, or some of them."""
+        if isinstance(index, slice):
+            return LightRays({name: values[index] for name, values in self._arrays.items()}, self._names)
+        row = {name: values[index].tolist() for name, values in self._arrays.items()}
+        known = {name: _tuple(value) for name, value in row.items()}
+        return LightRay(
+            **{
+                **known,
+                "light": None if row["light"] < 0 else row["light"],
+                "point": None if np.isnan(row["point"][0]) else known["point"],
+                "visible": None if row["visible"] < 0 else bool(row["visible"]),
+                "blocker": None if row["blocker"] < 0 else self._names[row["blocker"]],
+            }
+        )
+
+    def __iter__(self) -> Iterator[LightRay]:
+        """One by one."""
+        return (self[i] for i in range(len(self)))
+
 
 class Receiver(NamedTuple):
     """What a viewing ray meets."""
@@ -72,12 +125,50 @@ class ViewingRay(NamedTuple):
     """None: it meets nothing."""
     emission: Triple
     """What light that is seen itself (a lamp, the sky) adds to the pixel."""
-    light_rays: list[LightRay]
+    light_rays: LightRays
 
     @property
     def brings(self) -> Triple:
         """What it adds to the pixel, all in all."""
-        return _sum([self.emission, *(row.brings for row in self.light_rays)])
+        r, g, b = (np.asarray(self.emission) + self.light_rays.array("brings").sum(0)).tolist()
+        return r, g, b
+
+
+class ViewingRays(Sequence[ViewingRay]):
+    """The viewing rays of a pixel, made one by one."""
+
+    def __init__(self, found: Mapping[str, Any], light_rays: LightRays) -> None:
+        """Of what the core found."""
+        self._rays, self._met, self._names = found["viewing_rays"], found["receivers"], found["names"]
+        self._first = np.concatenate([[0], np.cumsum(self._rays["rows"])])
+        self._light_rays = light_rays
+
+    def __len__(self) -> int:
+        """How many."""
+        return len(self._rays["met"])
+
+    @overload
+    def __getitem__(self, index: int) -> ViewingRay: ...
+    @overload
+    def __getitem__(self, index: slice) -> list[ViewingRay]: ...
+    def __getitem__(self, index: int | slice) -> ViewingRay | list[ViewingRay]:
+        """One viewing ray, or some of them."""
+        if isinstance(index, slice):
+            return [self[i] for i in range(*index.indices(len(self)))]
+        at = range(len(self))[index]
+        origin, direction, emission = (
+            _tuple(self._rays[n][at].tolist()) for n in ("origin", "direction", "emission")
+        )
+        rows = self._light_rays[int(self._first[at]) : int(self._first[at + 1])]
+        return ViewingRay(origin, direction, self._receiver(int(self._rays["met"][at])), emission, rows)
+
+    def _receiver(self, at: int) -> Receiver | None:
+        if at < 0:
+            return None
+        known = {name: _tuple(values[at].tolist()) for name, values in self._met.items()}
+        for name in ("object", "material"):
+            known[name] = self._names[known[name]]
+        return Receiver(**known)
 
 
 class Pixel:
@@ -89,13 +180,10 @@ class Pixel:
     value: Triple
     settings: dict[str, str]
     lights: list[str]
-    viewing_rays: list[ViewingRay]
-
-    @property
-    def light_rays(self) -> list[LightRay]:
-        """All rays to the lights, viewing ray after viewing ray."""
-        return [row for ray in self.viewing_rays for row in ray.light_rays]
+    viewing_rays: ViewingRays
+    light_rays: LightRays
+    """All rays to the lights, viewing ray after viewing ray."""
 
 
-def _sum(parts: list[Triple]) -> Triple:
-    return (sum(p[0] for p in parts), sum(p[1] for p in parts), sum(p[2] for p in parts))
+def _tuple(value: Any) -> Any:
+    return tuple(value) if isinstance(value, list) else value

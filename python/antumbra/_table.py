@@ -21,6 +21,8 @@ def explained(e: Pixel) -> str:
         lines += [
             _fact("brings", f"V · {share}L_e · f_r · cos θ / pdf,"),
             _fact("", "over shadow rays × viewing rays; luminances"),
+            _fact("pdf", "per solid angle [1/sr]; per area of the light,"),
+            _fact("", f"pdf · cos θ′ / r², {_areas(e)}"),
         ]
     return "\n".join(lines)
 
@@ -62,6 +64,15 @@ def _light_ray(e: Pixel, row: LightRay, mis: bool) -> str:
     numbers = [row.cos, row.cos_light, third, row.pdf, _grey(row.radiance), _grey(row.brdf)]
     free = {True: "1", False: "0", None: "–"}[row.visible]
     return _row(light, where, (*map(_short, numbers), free, _short(_grey(row.brings))))
+
+
+def _areas(e: Pixel) -> str:
+    """What the densities per area are, all in all."""
+    found = [area for row in e.light_rays if (area := row.pdf_area) is not None]
+    if not found:
+        return "where it has one"
+    low, high = significant(min(found)), significant(max(found))
+    return f"{low} / m²" if low == high else f"{low} to {high} / m²"
 
 
 def _row(light: str, where: str, rest: tuple[str, ...]) -> str:

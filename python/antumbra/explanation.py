@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 from antumbra._pixel import LightRay as LightRay
-from antumbra._pixel import Pixel, Triple
+from antumbra._pixel import LightRays as LightRays
+from antumbra._pixel import Pixel, Triple, ViewingRays
 from antumbra._pixel import Receiver as Receiver
 from antumbra._pixel import ViewingRay as ViewingRay
 from antumbra._table import explained
@@ -16,8 +17,9 @@ class Explanation(Pixel):
     """A pixel with everything that makes it, as `Scene.explain` returns it.
 
     `pixel` (column, row); `size` of the whole picture; `value`: its radiance, the sum of what its rays bring, which is
-    what a render with the same settings has; `viewing_rays`; `lights`: their names by number; `settings`: those that
-    were given, as words; `messages`. `print` shows it as a table.
+    what a render with the same settings has; `viewing_rays`, and the `light_rays` of all of them (as
+    arrays: `light_rays.array("pdf")`); `lights`: their names by number; `settings`: those that were given, as words;
+    `messages`. `print` shows it as a table.
     """
 
     def __init__(
@@ -29,13 +31,17 @@ class Explanation(Pixel):
         self.value: Triple = tuple(found["value"])
         self.lights: list[str] = found["lights"]
         self.messages = [Message(*said) for said in found["messages"]]
-        self.viewing_rays = [_viewing_ray(ray) for ray in found["viewing_rays"]]
+        self.light_rays = LightRays(found["light_rays"], found["names"])
+        self.viewing_rays = ViewingRays(found, self.light_rays)
 
     def as_dict(self) -> dict[str, Any]:
         """Plain dicts, lists and numbers; what is infinite or not a number is None."""
         rays = []
         for ray in self.viewing_rays:
-            rows = [{key: _plain(x) for key, x in row._asdict().items()} for row in ray.light_rays]
+            rows = [
+                {**{key: _plain(x) for key, x in row._asdict().items()}, "pdf_area": row.pdf_area}
+                for row in ray.light_rays
+            ]
             met = ray.receiver._asdict() if ray.receiver else None
             rays.append({**ray._asdict(), "receiver": met, "light_rays": rows})
         return {
@@ -58,18 +64,6 @@ class Explanation(Pixel):
         value = " ".join(f"{c:.3g}" for c in self.value)
         rays = f"{len(self.light_rays):,} rays to lights"
         return f"<Explanation {self.name} {self.pixel[0]},{self.pixel[1]}: {value}, {rays}>"
-
-
-def _viewing_ray(found: dict[str, Any]) -> ViewingRay:
-    rows = [LightRay(**{key: _tuple(x) for key, x in row.items()}) for row in found["light_rays"]]
-    met = found["met"] and Receiver(**{key: _tuple(x) for key, x in found["met"].items()})
-    return ViewingRay(
-        _tuple(found["origin"]), _tuple(found["direction"]), met, _tuple(found["emission"]), rows
-    )
-
-
-def _tuple(value: Any) -> Any:
-    return tuple(value) if isinstance(value, list) else value
 
 
 def _plain(value: Any) -> Any:

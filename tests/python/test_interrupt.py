@@ -71,6 +71,7 @@ except KeyboardInterrupt:
 ASKED = [
     ("pillars", "scene.ambient_occlusion(points, (0.0, 1, 0), rays=100_000)"),
     ("many-lights", "scene.sample_light(points, (0.0, 1, 0), points % 1, lights='contribution')"),
+    ("pillars", "[scene.explain((250, 300), viewing_rays=65536) for _ in range(1000)]"),
 ]
 
 

@@ -1,14 +1,15 @@
 //! Shadows taken apart: what segments visit, and everything that makes a pixel.
 
+use std::collections::HashMap;
 use std::ops::Range;
 
 use antumbra::query::{self, Visited};
 use antumbra::render::{self, LightRay, SurfaceMet, ViewingRay};
 use antumbra::trace::SegmentBuffer;
 use numpy::ndarray::Array2;
-use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray1};
+use numpy::{Element, IntoPyArray, PyArray1, PyArray2, PyReadonlyArray1};
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyList};
+use pyo3::types::PyDict;
 
 use crate::arrays::Rows;
 use crate::ask::{Origins, Wrong};
@@ -43,7 +44,7 @@ impl PyScene {
         Ok((counts.into_pyarray(py), blocked.into_pyarray(py)))
     }
 
-    /// Everything that makes a pixel, as dicts and lists: `Explanation` of the Python side names them.
+    /// Everything that makes a pixel, as arrays: `Explanation` of the Python side names them.
     fn explain<'py>(
         &self,
         py: Python<'py>,
@@ -54,20 +55,41 @@ impl PyScene {
         self.relate(&mut settings);
         let (around, told) = crate::render::environment(py, &settings)?;
         let scene = self.scene(py)?;
-        let explained = py.detach(|| render::explain(&scene, pixel, &settings, around));
+        let explained = watched(py, |look| render::explain(&scene, pixel, &settings, around, look))?;
         let mut explained = explained.map_err(|e| errors::scene(&e, self.file()))?;
         explained.messages.extend(told);
-        let out = PyDict::new(py);
+        let (out, mut names) = (PyDict::new(py), Names::default());
         out.set_item("size", explained.size)?;
         out.set_item("value", explained.value)?;
         out.set_item("lights", explained.lights)?;
         out.set_item("messages", explained.messages.iter().map(said).collect::<Vec<_>>())?;
-        let rays = PyList::empty(py);
-        for ray in &explained.viewing_rays {
-            rays.append(self.viewing_ray(py, ray)?)?;
-        }
-        out.set_item("viewing_rays", rays)?;
+        out.set_item("viewing_rays", self.viewing_rays(py, &explained.viewing_rays)?)?;
+        let met: Vec<&SurfaceMet> = explained.viewing_rays.iter().filter_map(|r| r.met.as_ref()).collect();
+        out.set_item("receivers", self.receivers_met(py, &met, &mut names)?)?;
+        let rows: Vec<&LightRay> = explained.viewing_rays.iter().flat_map(|r| &r.light_rays).collect();
+        out.set_item("light_rays", self.light_rays(py, &rows, &mut names)?)?;
+        out.set_item("names", names.list)?;
         Ok(out)
+    }
+}
+
+/// Names of objects and materials, each once.
+#[derive(Default)]
+struct Names {
+    list: Vec<String>,
+    at: HashMap<String, i32>,
+}
+
+impl Names {
+    /// The number of a name.
+    fn number(&mut self, name: &str) -> i32 {
+        if let Some(known) = self.at.get(name) {
+            return *known;
+        }
+        let new = self.list.len() as i32;
+        self.list.push(name.to_owned());
+        self.at.insert(name.to_owned(), new);
+        new
     }
 }
 
@@ -78,48 +100,75 @@ impl PyScene {
         [0, 1, 2].map(|k| f64::from(p[k]) + origin[k])
     }
 
-    fn viewing_ray<'py>(&self, py: Python<'py>, ray: &ViewingRay) -> PyResult<Bound<'py, PyDict>> {
+    /// `met`: the number of its receiver, −1 for none; `rows`: how many rays to lights it has.
+    fn viewing_rays<'py>(&self, py: Python<'py>, rays: &[ViewingRay]) -> PyResult<Bound<'py, PyDict>> {
         let out = PyDict::new(py);
-        out.set_item("origin", self.world(ray.origin.to_array()))?;
-        out.set_item("direction", ray.direction.to_array())?;
-        out.set_item("met", ray.met.as_ref().map(|met| self.met(py, met)).transpose()?)?;
-        out.set_item("emission", ray.emission)?;
-        let rows = PyList::empty(py);
-        for row in &ray.light_rays {
-            rows.append(self.light_ray(py, row)?)?;
-        }
-        out.set_item("light_rays", rows)?;
+        let mut count = 0..;
+        let met = rays.iter().map(|r| r.met.as_ref().and_then(|_| count.next()).unwrap_or(-1_i32));
+        out.set_item("origin", vectors(py, rays.iter().map(|r| self.world(r.origin.to_array())))?)?;
+        out.set_item("direction", vectors(py, rays.iter().map(|r| r.direction.to_array()))?)?;
+        out.set_item("met", PyArray1::from_iter(py, met))?;
+        out.set_item("emission", vectors(py, rays.iter().map(|r| r.emission))?)?;
+        out.set_item("rows", PyArray1::from_iter(py, rays.iter().map(|r| r.light_rays.len() as i64)))?;
         Ok(out)
     }
 
-    fn met<'py>(&self, py: Python<'py>, met: &SurfaceMet) -> PyResult<Bound<'py, PyDict>> {
+    fn receivers_met<'py>(
+        &self,
+        py: Python<'py>,
+        met: &[&SurfaceMet],
+        names: &mut Names,
+    ) -> PyResult<Bound<'py, PyDict>> {
         let out = PyDict::new(py);
-        out.set_item("position", self.world(met.receiver.p.to_array()))?;
-        out.set_item("normal", met.receiver.ng.to_array())?;
-        out.set_item("shading_normal", met.receiver.frame.n.to_array())?;
-        out.set_item("distance", met.distance)?;
-        out.set_item("object", &met.object)?;
-        out.set_item("material", &met.material)?;
-        out.set_item("albedo", met.receiver.bsdf.albedo().0)?;
+        out.set_item("position", vectors(py, met.iter().map(|m| self.world(m.receiver.p.to_array())))?)?;
+        out.set_item("normal", vectors(py, met.iter().map(|m| m.receiver.ng.to_array()))?)?;
+        out.set_item("shading_normal", vectors(py, met.iter().map(|m| m.receiver.frame.n.to_array()))?)?;
+        out.set_item("distance", PyArray1::from_iter(py, met.iter().map(|m| m.distance)))?;
+        out.set_item("object", PyArray1::from_iter(py, met.iter().map(|m| names.number(&m.object))))?;
+        out.set_item("material", PyArray1::from_iter(py, met.iter().map(|m| names.number(&m.material))))?;
+        out.set_item("albedo", vectors(py, met.iter().map(|m| m.receiver.bsdf.albedo().0))?)?;
         Ok(out)
     }
 
-    fn light_ray<'py>(&self, py: Python<'py>, row: &LightRay) -> PyResult<Bound<'py, PyDict>> {
+    /// What is not there: light and blocker −1, point NaN, visible −1.
+    fn light_rays<'py>(
+        &self,
+        py: Python<'py>,
+        rows: &[&LightRay],
+        names: &mut Names,
+    ) -> PyResult<Bound<'py, PyDict>> {
         let out = PyDict::new(py);
-        out.set_item("by_direction", row.by_direction)?;
-        out.set_item("light", row.light)?;
-        out.set_item("direction", row.wi.to_array())?;
-        out.set_item("point", row.point.map(|p| self.world(p.to_array())))?;
-        out.set_item("distance", row.distance)?;
-        out.set_item("cos", row.cos)?;
-        out.set_item("cos_light", row.cos_light)?;
-        out.set_item("radiance", row.radiance.0)?;
-        out.set_item("brdf", row.brdf.0)?;
-        out.set_item("pdf", row.pdf)?;
-        out.set_item("weight", row.weight)?;
-        out.set_item("visible", row.visible)?;
-        out.set_item("blocker", &row.blocker)?;
-        out.set_item("brings", row.brings)?;
+        let numbers = |of: fn(&LightRay) -> f32| PyArray1::from_iter(py, rows.iter().map(|r| of(r)));
+        let light = |r: &&LightRay| r.light.map_or(-1, i64::from);
+        let point = |r: &&LightRay| r.point.map_or([f64::NAN; 3], |p| self.world(p.to_array()));
+        let blocker = |r: &&LightRay| r.blocker.as_deref().map_or(-1, |name| names.number(name));
+        out.set_item("by_direction", PyArray1::from_iter(py, rows.iter().map(|r| r.by_direction)))?;
+        out.set_item("light", PyArray1::from_iter(py, rows.iter().map(light)))?;
+        out.set_item("direction", vectors(py, rows.iter().map(|r| r.wi.to_array()))?)?;
+        out.set_item("point", vectors(py, rows.iter().map(point))?)?;
+        out.set_item("distance", numbers(|r| r.distance))?;
+        out.set_item("cos", numbers(|r| r.cos))?;
+        out.set_item("cos_light", numbers(|r| r.cos_light))?;
+        out.set_item("radiance", vectors(py, rows.iter().map(|r| r.radiance.0))?)?;
+        out.set_item("brdf", vectors(py, rows.iter().map(|r| r.brdf.0))?)?;
+        out.set_item("pdf", numbers(|r| r.pdf))?;
+        out.set_item("weight", numbers(|r| r.weight))?;
+        out.set_item(
+            "visible",
+            PyArray1::from_iter(py, rows.iter().map(|r| r.visible.map_or(-1, i8::from))),
+        )?;
+        out.set_item("blocker", PyArray1::from_iter(py, rows.iter().map(blocker)))?;
+        out.set_item("brings", vectors(py, rows.iter().map(|r| r.brings))?)?;
         Ok(out)
     }
+}
+
+/// Rows of three, (N, 3).
+fn vectors<T: Element>(
+    py: Python<'_>,
+    rows: impl Iterator<Item = [T; 3]>,
+) -> PyResult<Bound<'_, PyArray2<T>>> {
+    let all: Vec<T> = rows.flatten().collect();
+    let shaped = Array2::from_shape_vec((all.len() / 3, 3), all);
+    Ok(shaped.map_err(|e| errors::value(e.to_string()))?.into_pyarray(py))
 }

@@ -92,7 +92,10 @@ pub fn render(
         shadows: settings.shadows,
         distance_test: settings.distance_test,
     };
-    let finished = schedule::run(&job, settings.threads, watch);
+    let (rays, maps) = costs(settings);
+    let whole = rays + maps;
+    let mut part = |p: Progress| watch(Progress { done: p.done * rays, total: p.total * whole, ..p });
+    let finished = schedule::run(&job, settings.threads, &mut part);
     let maps = regions(&scene, settings, (&camera, view), &finished, &mut messages, watch);
     let mut picture = picture(&scene, settings, &view, finished, messages);
     picture.aovs.extend(maps);
@@ -112,7 +115,11 @@ fn regions(
         return Vec::new();
     }
     let (passes, passes_done) = (settings.viewing_rays, finished.passes_done);
-    let mut look = || watch(Progress { done: 1, total: 1, passes_done, passes });
+    let (rays, maps) = costs(settings);
+    let mut look = |done: u64, tiles: u64| {
+        let (done, total) = (rays * tiles + maps * done, (rays + maps) * tiles);
+        watch(Progress { done, total, passes_done, passes })
+    };
     let asked = passes_done == settings.passes_of(passes).until;
     let maps = if asked { maps::region_maps(scene, settings, view, messages, &mut look) } else { None };
     maps.unwrap_or_else(|| {
@@ -120,6 +127,12 @@ fn regions(
         messages.push(Message { level: Level::Warning, place: String::new(), text });
         Vec::new()
     })
+}
+
+/// What the picture and the maps of regions cost for each pixel, as numbers of rays: their shares of the progress.
+fn costs(s: &Settings) -> (u64, u64) {
+    let rays = u64::from(s.viewing_rays) * (1 + u64::from(s.shadow_rays));
+    if s.aov.has(Planes::REGIONS) { (rays, 2 * u64::from(s.region_points)) } else { (1, 0) }
 }
 
 /// Width and height of the picture that the settings ask for.

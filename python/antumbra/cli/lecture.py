@@ -117,6 +117,7 @@ class _Bar:
                 r.TextColumn("  {task.description}"),
                 r.BarColumn(),
                 r.TextColumn("{task.fields[left]}"),
+                r.TimeElapsedColumn(),
                 console=rich.console.Console(stderr=True),
             )
             self._bar.add_task("lecture", total=1.0, left="")
@@ -130,7 +131,7 @@ class _Bar:
     def step(self, at: Step) -> None:
         if self._bar:
             task = self._bar.task_ids[0]
-            words = f"{at.name} · {at.done + 1} of {at.all}"
+            words = " · ".join(filter(None, (f"{at.done + 1} of {at.all}", at.name, at.doing)))
             share = (at.done + at.share) / at.all
             self._bar.update(task, completed=share, description=words, left=f"{_about(at.left)} left")
 

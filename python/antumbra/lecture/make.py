@@ -15,18 +15,25 @@ from antumbra.lecture.chapters import CHAPTERS
 from antumbra.lecture.figure import Chapter, Figure, Pick
 from antumbra.lecture.keep import Folder, key
 from antumbra.lecture.quantity import Quantity
-from antumbra.lecture.run import Run
+from antumbra.lecture.run import Report, Run
 from antumbra.lecture.stages import Picture, plain
 from antumbra.lecture.verdict import verdict
 
 # What the two pictures of a chapter's opening take.
 _OPENING = Pick(0.7, 6.0)
+# Where measuring begins in the progress of a figure that renders pictures, and where drawing the page's pictures does.
+_MEASURES, _DRAWS = 0.8, 0.9
+# What is stated counts like so many seconds of this machine, until more are known.
+_BELIEVED = 1.0
 
 
 class Step(NamedTuple):
-    """How far a lecture is: the figure at work, how many are `done` of `all`, the share of it, seconds left."""
+    """How far a lecture is: the figure at work and what is done of it, how many are `done` of `all`, the share of it,
+    seconds left.
+    """
 
     name: str
+    doing: str
     done: int
     all: int
     share: float
@@ -48,20 +55,35 @@ class Lecture:
         """Nothing runs yet."""
         self.folder, self.figures = Folder(folder), figures
         self.quick, self.seed, self.single = quick, seed, single
-        self._speed = 1.0
+        self._stated_seconds = self._took = 0.0
 
     # ---- what there is to do ----
 
     def waiting(self) -> list[str]:
-        """Names of openings (`chapter-1`) and figures that are not finished."""
+        """Names of openings (`chapter-1`) and figures that are not finished; those that are set the pace."""
         openings = [
             _opening(c) for c in CHAPTERS if any(f.chapter == c.number for f in self.figures.values())
         ]
-        return [name for name in (*openings, *self.figures) if not self.folder.kept(name, self._key(name))]
+        self._stated_seconds = self._took = 0.0
+        found = []
+        for name in (*openings, *self.figures):
+            if kept := self.folder.kept(name, self._key(name)):
+                self._learn(name, kept)
+            else:
+                found.append(name)
+        return found
 
     def seconds(self, names: Sequence[str]) -> float:
-        """How long these will take: what is stated on two cores, at the speed that this run has had so far."""
-        return self._speed * sum(self._stated(name) for name in names)
+        """How long these will take: what is stated on two cores, at the pace that finished figures had here."""
+        return self._pace() * sum(self._stated(name) for name in names)
+
+    def _pace(self, stated: float = 0.0, took: float = 0.0) -> float:
+        """What figures took for each second stated: those that are finished, and what is given of the one at work."""
+        return (self._took + took + _BELIEVED) / (self._stated_seconds + stated + _BELIEVED)
+
+    def _learn(self, name: str, result: Mapping[str, Any]) -> None:
+        self._stated_seconds += self._stated(name)
+        self._took += result["seconds"]
 
     def _stated(self, name: str) -> float:
         cost = self.figures[name].seconds if name in self.figures else _OPENING
@@ -79,23 +101,26 @@ class Lecture:
     ) -> None:
         """Runs what is waiting, in order; after each the page is written anew. `finished` gets what a figure found."""
         waiting = self.waiting()
-        stated = took = 0.0
         for n, name in enumerate(waiting):
-            rest = waiting[n + 1 :]
-
-            def report(share: float, name: str = name, n: int = n, rest: list[str] = rest) -> None:
-                left = self.seconds(rest) + (1 - share) * self.seconds([name])
-                step(Step(name, n, len(waiting), share, left))
-
-            report(0.0)
-            result = self._one(name, report)
-            stated, took = stated + self._stated(name), took + result["seconds"]
-            self._speed = took / stated
+            result = self._one(name, self._reporter(step, waiting, n))
+            self._learn(name, result)
             self.write(single=False)
             finished(result)
         self.write()
 
-    def _one(self, name: str, report: Callable[[float], object]) -> dict[str, Any]:
+    def _reporter(self, step: Callable[[Step], object], waiting: Sequence[str], n: int) -> Report:
+        """Tells `step` how far the n-th is, and how long the rest will take at the pace so far."""
+        name, began = waiting[n], time.perf_counter()
+        own, rest = self._stated(name), sum(map(self._stated, waiting[n + 1 :]))
+
+        def report(share: float, doing: str) -> None:
+            pace = self._pace(share * own, time.perf_counter() - began)
+            step(Step(name, doing, n, len(waiting), share, pace * (rest + (1 - share) * own)))
+
+        report(0.0, "")
+        return report
+
+    def _one(self, name: str, report: Report) -> dict[str, Any]:
         key_of_it, began = self._key(name), time.perf_counter()
         with self.folder.beside() as beside:
             run = Run(name, beside, quick=self.quick, seed=self.seed, report=report)
@@ -147,8 +172,12 @@ class Lecture:
 
 def examine(figure: Figure, run: Run) -> dict[str, Any]:
     """Renders and measures a figure; what it found, as plain data for `kept/` and the page."""
+    begins = _MEASURES if figure.variants else 0.0
+    run.phase(0.0, begins)
     run.render(list(figure.variants))
+    run.phase(begins, _DRAWS, "measuring")
     measured = figure.measure(run)
+    run.phase(_DRAWS, 1.0, "drawing")
     stage = plain(figure.stage(run, measured))
     for source in figure.exr or [variant.key for variant in figure.variants[:1]]:
         run.exr(source, "" if len(figure.exr) < 2 else source)

@@ -19,6 +19,8 @@ if TYPE_CHECKING:
     from antumbra.image import Image
     from antumbra.scene import Progress, Scene
 
+Report = Callable[[float, str], object]
+
 # Replicates of one seed of the lecture get seeds of their own below this number.
 _SEEDS = 4096
 # Those of a truth begin here.
@@ -35,19 +37,32 @@ class Run:
         *,
         quick: bool,
         seed: int = 0,
-        report: Callable[[float], object] = lambda share: None,
+        report: Report = lambda share, doing: None,
     ) -> None:
-        """`report` is called with the share that is done, 0 to 1."""
+        """`report` is called with the share that is done, 0 to 1, and what is being done."""
         self.name, self.folder, self.quick, self.seed, self.report = name, folder, quick, seed, report
         self.files: list[str] = []
         self.rays = 0
         self._images: dict[str, list[Image]] = {}
         self._scenes: dict[Callable[[], Scene], Scene] = {}
         self._once: dict[Any, Any] = {}
+        self._phase = (0.0, 1.0)
 
     def pick(self, value: Any) -> Any:
         """The value itself, or the part of a `Pick` that this run takes."""
         return (value.quick if self.quick else value.full) if isinstance(value, Pick) else value
+
+    # ---- progress ----
+
+    def phase(self, begins: float, ends: float, doing: str = "") -> None:
+        """What comes next takes the figure from one share to another."""
+        self._phase = (begins, ends)
+        self.at(0.0, doing)
+
+    def at(self, share: float, doing: str) -> None:
+        """The share of this phase that is done, and what is being done: a figure may say so in a long loop."""
+        begins, ends = self._phase
+        self.report(begins + share * (ends - begins), doing)
 
     # ---- rendering ----
 
@@ -55,9 +70,11 @@ class Run:
         """Renders all variants with all their replicates."""
         work = [(variant, n) for variant in variants for n in range(self.pick(variant.replicates))]
         for done, (variant, n) in enumerate(work):
+            kind = "reference" if variant.truth else "picture"
+            doing = f"{kind} {done + 1} of {len(work)}"
 
-            def step(state: Progress, done: int = done) -> None:
-                self.report((done + state.done) / len(work))
+            def step(state: Progress, done: int = done, doing: str = doing) -> None:
+                self.at((done + state.done) / len(work), doing)
 
             self._images.setdefault(variant.key, []).append(self._one(variant, n, step))
 

@@ -26,12 +26,14 @@ U *= EDGE / np.linalg.norm(U)
 V = np.cross(_TOWARD / np.linalg.norm(_TOWARD), U)
 CORNER = _MIDDLE - (U + V) / 2
 RADIANCE, AREA = 10.0, EDGE * EDGE
+# Of the floor.
+ALBEDO = 0.6
 
 
 def three_pillars() -> am.Scene:
-    """The scene; the floor has the albedo 0.6."""
+    """The scene."""
     scene, stone = am.Scene("three-pillars"), am.materials.Diffuse(0.7)
-    square(scene, 0.0, 40.0, am.materials.Diffuse(0.6))
+    square(scene, 0.0, 40.0, am.materials.Diffuse(ALBEDO))
     for x, z, height, turn in ((-0.3, -0.15, 1.7, 0.5), (-1.5, 0.6, 0.8, 0.2), (1.2, -0.9, 1.1, 0.9)):
         vertices, faces = _pillar(x, z, height, turn)
         scene.add_mesh(vertices, faces, material=stone, name="pillar")

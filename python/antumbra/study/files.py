@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import json
+import math
 import os
+from itertools import chain
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from antumbra import _core
 from antumbra.study.rows import Row
@@ -56,6 +58,22 @@ def finished_rows(folder: Path, fingerprint: str) -> list[Row]:
     except (ValueError, KeyError, TypeError):
         # Somebody else's file: it is replaced when the study is done.
         return []
+
+
+def kept_pilots(folder: Path, asked: str) -> dict[str, Any]:
+    """What the pilots of an earlier run of the same study found; without one, nothing."""
+    try:
+        found = json.loads((folder / "results.json").read_text(encoding="utf-8"))["pilots"]
+        costs = {str(key): (float(base), float(each)) for key, (base, each) in found["costs"].items()}
+        if not asked or found["asked"] != asked or not all(map(math.isfinite, chain(*costs.values()))):
+            return {}
+        kept: dict[str, Any] = {"asked": asked, "costs": costs}
+        if "reference" in found:
+            by, refused = found["reference"]
+            kept["reference"] = (str(by), {str(kind): str(why) for kind, why in refused.items()})
+        return kept
+    except (OSError, ValueError, KeyError, TypeError, AttributeError):
+        return {}
 
 
 def _replace(target: Path, text: str) -> None:

@@ -25,7 +25,8 @@ class Findings:
 
     `rows`: one per variant; `axis`: what is on the axis of the plots (a setting, `budget`, or nothing); `varied`: the
     names and values; `reference`: what it was held against, in words; `messages`: notes and warnings (level, place,
-    text); `complete`: False if it was stopped before all rows were done; `command`: how it was called, if known.
+    text); `complete`: False if it was stopped before all rows were done; `command`: how it was called, if known;
+    `pilots`: what short renders found before it began.
     """
 
     scene: str
@@ -41,6 +42,7 @@ class Findings:
     budget: str = ""
     fingerprint: str = ""
     command: str = ""
+    pilots: dict[str, Any] = field(default_factory=dict)
 
     def curves(self) -> dict[str, list[Row]]:
         """The rows of each curve in the order of the axis, by name: the values that are not on the axis."""
@@ -137,6 +139,7 @@ class Findings:
             "complete": self.complete, "messages": [list(m) for m in self.messages],
             "variance_slopes": {name: self.slope(name) for name in self.curves()},
             "rows": [row.as_json() for row in self.rows], "command": self.command, "fingerprint": self.fingerprint,
+            "pilots": self.pilots,
         }  # fmt: skip
         return json.dumps(_plain(whole), indent=1, ensure_ascii=False) + "\n"
 

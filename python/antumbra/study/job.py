@@ -15,7 +15,7 @@ import numpy as np
 from antumbra import __version__, settings
 from antumbra.errors import OptionError
 from antumbra.study import kinds, renders
-from antumbra.study.files import check_folder, finished_rows, keep, write
+from antumbra.study.files import check_folder, finished_rows, keep, kept_pilots, write
 from antumbra.study.plan import Plan, Variant
 from antumbra.study.renders import Step, Work
 from antumbra.study.result import Study
@@ -47,6 +47,7 @@ class Job:
         self.command = ""
         self.by, self.rays, self.chooses = "", 0, False
         self.warnings: list[tuple[str, str, str]] = []
+        self.pilots: dict[str, Any] = {}
         first = made.variants[0]
         width, height = self.work.scene(first.parameters)._core.picture_size(list(first.words.items()))
         self.size = (width, height)
@@ -78,7 +79,9 @@ class Job:
 
     def _choose_reference(self) -> None:
         """Of the estimators that share no part with the variants, if pilots find none wrong with one."""
-        self.by, refused = kinds.chosen(self.plan, self.work, self.rays)
+        if "reference" not in self.pilots:
+            self.pilots["reference"] = kinds.chosen(self.plan, self.work, self.rays)
+        self.by, refused = self.pilots["reference"]
         self._warn_of_parts(refused)
 
     def _warn_of_parts(self, refused: Mapping[str, str]) -> None:
@@ -116,8 +119,11 @@ class Job:
         if folder is not None:
             check_folder(folder)
         rows: list[Row] = []
+        asked = self._asked()
+        self.pilots = {} if folder is None else kept_pilots(folder, asked)
+        self.pilots = self.pilots or {"asked": asked, "costs": {}}
         try:
-            self.plan = renders.within_budget(self.plan, self.work)
+            self.plan = renders.within_budget(self.plan, self.work, self.pilots["costs"])
             if self.chooses:
                 self._choose_reference()
             found = [] if folder is None else finished_rows(folder, self.fingerprint())
@@ -192,6 +198,17 @@ class Job:
         ]  # fmt: skip
         return hashlib.sha256(json.dumps(whole).encode()).hexdigest()[:16]
 
+    def _asked(self) -> str:
+        """Equal for two studies whose pilots are the same: before they are rendered, all that decides them."""
+        if not self.source.identity:
+            return ""
+        plan = self.plan
+        what = [
+            __version__, self.source.identity, plan.fixed, plan.varied, plan.seeds, plan.first_seed, plan.budget,
+            [v.budget for v in plan.variants], [v.parameters for v in plan.variants], self.by, self.rays,
+        ]  # fmt: skip
+        return hashlib.sha256(json.dumps(what).encode()).hexdigest()[:16]
+
     def _given_arrays(self) -> list[Pictures | None]:
         return [self.given.pictures, self.given.error] if self.given else []
 
@@ -216,6 +233,7 @@ class Job:
             budget=plan.budget,
             fingerprint=self.fingerprint(),
             command=self.command,
+            pilots=self.pilots,
         )
 
 

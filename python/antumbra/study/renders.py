@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from os import PathLike
@@ -107,15 +108,17 @@ def cost(variants: Sequence[Variant], seeds: int, reference: Mapping[str, str] |
     return sum(_rays(v.words) for v in variants) * seeds + long
 
 
-def within_budget(plan: Plan, work: Work) -> Plan:
-    """The plan with the number of rays of each variant chosen so that all spend the same."""
+def within_budget(plan: Plan, work: Work, pilots: dict[str, tuple[float, float]]) -> Plan:
+    """The plan with the number of rays of each variant chosen so that all spend the same.
+
+    `pilots`: what each kind of picture costs; those that are missing are found out.
+    """
     if not plan.budget:
         return plan
-    pilots: dict[tuple[Any, ...], tuple[float, float]] = {}
     found = []
     for variant in plan.variants:
         words = {k: v for k, v in variant.words.items() if k != plan.chosen}
-        key = (*sorted(words.items()), *sorted(variant.parameters.items()))
+        key = json.dumps([sorted(words.items()), sorted(variant.parameters.items())])
         if key not in pilots:
             pilots[key] = _pilot(plan, variant, work)
         base, each = pilots[key]

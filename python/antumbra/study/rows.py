@@ -123,6 +123,13 @@ def _interval(ends: list[float | None]) -> Interval:
     return Interval(value, low, high)
 
 
+def _own_half(pictures: Pictures, reference: Reference) -> float:
+    """What the reference's own noise adds to the interval of the error; 0 where nothing is known of it."""
+    if reference.error is not None:
+        return statistics.error_half(pictures, reference.mean, reference.error)
+    return statistics.reference_half(pictures, reference.pictures) if len(reference.pictures) > 2 else 0.0
+
+
 def measured(pictures: Pictures, seconds: list[float], reference: Reference | None, **about: Any) -> Row:
     """The row of K pictures (K, H, W, 3) and their times; `about`: the fields that say which variant it is."""
     variance, time = statistics.variance(pictures), statistics.mean(seconds)
@@ -138,10 +145,9 @@ def measured(pictures: Pictures, seconds: list[float], reference: Reference | No
     if reference is not None:
         squared = statistics.squared_errors(pictures, reference.mean, reference.variance)
         several = len(reference.pictures) > 1
-        own = statistics.reference_half(pictures, reference.pictures) if len(reference.pictures) > 2 else 0.0
         row |= {
             "squared": [float(e) for e in squared],
-            "mse": statistics.mse_of(squared, own_half=own),
+            "mse": statistics.mse_of(squared, own_half=_own_half(pictures, reference)),
             "reference_variance": reference.variance,
             "bias": bias(
                 pictures,

@@ -8,6 +8,7 @@ intervals come from the spread over replicates alone. Intervals are two-sided an
 from __future__ import annotations
 
 import math
+from statistics import NormalDist
 from typing import Literal, NamedTuple
 
 import numpy as np
@@ -178,7 +179,7 @@ def mse(
 ) -> Interval:
     """Mean squared error against a reference (as in `squared_errors`), with the t-interval over replicates.
 
-    The noise of the reference, which all replicates share, is not in it: `reference_half` says what it adds.
+    The noise of the reference, which all replicates share, is not in it: `reference_half` and `error_half` have it.
     """
     return mse_of(squared_errors(replicates, reference, reference_variance), level)
 
@@ -202,6 +203,21 @@ def reference_half(replicates: ArrayLike, references: ArrayLike, level: float = 
     own = spreads / np.concatenate([[count], np.full(count, count - 1)])
     without = np.stack([centre, *((count * centre - one) / (count - 1) for one in r)])
     return _jackknife(_per_replicate((x - without) ** 2) - own, level).half
+
+
+def error_half(replicates: ArrayLike, reference: ArrayLike, error: ArrayLike, level: float = LEVEL) -> float:
+    """The same where the reference is one picture (H, W, C) with standard errors σ of its own, pixels independent.
+
+    Its noise ε = σ z, normal and z alike in the channels of a pixel, as the same rays made them, moves the mean of
+    (x̄ − r)² over N cells by that of ε² − σ² − 2 ε (x̄ − μ). The variance of that is Σ (2 (Σσ²)² + 4 (Σσ(x̄ − μ))²) / N²,
+    inner sums over channels; with d = x̄ − r in place of x̄ − μ the last square is (Σσ²)² too large.
+    """
+    d: NDArray[np.float64] = np.asarray(replicates, np.float64).mean(axis=0) - np.asarray(reference)
+    own = np.asarray(error, np.float64)
+    square = float(((own**2).sum(axis=-1) ** 2).sum())
+    with_d = float(((own * np.abs(d)).sum(axis=-1) ** 2).sum())
+    variance = max(4 * with_d - 2 * square, 2 * square)
+    return float(NormalDist().inv_cdf((1 + level) / 2)) * math.sqrt(variance) / d.size
 
 
 def rmse(

@@ -49,6 +49,24 @@ def test_what_is_finished_is_not_rendered_again(two_figures, antumbra, monkeypat
     assert calls == ["one", "two"]
 
 
+def test_the_time_left_goes_by_what_finished_figures_took(two_figures, antumbra, tmp_path):
+    assert antumbra("lecture", "--quick", "one", "-o", "out").code == 0
+    record = tmp_path / "out/kept/one.json"
+    stated = two_figures["two"].seconds.quick
+    for slow in (1, 40):
+        took = json.loads(record.read_text()) | {"seconds": slow * stated}
+        record.write_text(json.dumps(took))
+        lecture = make.Lecture(tmp_path / "out", two_figures, quick=True)
+        assert lecture.waiting() == ["two"]
+        # A second at the stated pace is believed beforehand, and the opening of the chapter took its time.
+        assert (lecture.seconds(["two"]) > 5 * stated) == (slow == 40)
+    steps = []
+    lecture.run(steps.append)
+    assert steps[0].left > 5 * stated > steps[-1].left and steps[-1].done == 0
+    assert [s.share for s in steps] == sorted(s.share for s in steps)
+    assert {"picture 1 of 2", "picture 2 of 2", "measuring", "drawing"} <= {s.doing for s in steps}
+
+
 def test_ctrl_c_keeps_what_is_finished_and_goes_on(two_figures, antumbra, tmp_path, monkeypatch):
     examine = make.examine
 

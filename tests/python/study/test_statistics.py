@@ -91,6 +91,23 @@ def test_the_interval_of_an_error_against_a_noisy_reference_covers_it(sigma):
     assert 0.95 - ALLOWED < coverage(found, 0.25 + sigma**2) < 0.99
 
 
+@pytest.mark.parametrize("bias", [0.0, 0.5])
+def test_the_interval_of_an_error_holds_the_noise_of_a_picture_with_errors(bias):
+    # Sixty pixels of three channels that err alike, as of a grey scene; some are four times as noisy as others.
+    random = np.random.default_rng(10)
+    error = np.repeat(np.where(np.arange(60) % 2, 0.25, 1.0)[:, None], 3, 1)
+    found, alone = [], []
+    for _ in range(M):
+        x = bias + random.normal(0, 0.1, (6, 60, 3))
+        reference = error * random.normal(0, 1.0, (60, 1))
+        squared = st.squared_errors(x, reference, error**2)
+        found.append(st.mse_of(squared, own_half=st.error_half(x, reference, error)))
+        alone.append(st.mse_of(squared))
+    assert coverage(alone, bias**2 + 0.01) < 0.5
+    # The distribution of a square is skewed: a normal interval of it may hold a little less, or more.
+    assert 0.9 - ALLOWED < coverage(found, bias**2 + 0.01) < 0.99
+
+
 def test_the_jackknife_over_a_reference_leaves_one_out():
     random = np.random.default_rng(9)
     x, r = random.normal(0, 1, (5, 7)), random.normal(0, 1, (6, 7))

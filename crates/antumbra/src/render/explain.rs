@@ -12,6 +12,7 @@ use crate::light::sampler::Scratch as LightWeights;
 use crate::light::{End, Light, LightId};
 use crate::receiver::Receiver;
 use crate::scene::{Message, Scene, SceneError, SceneVisibility};
+use crate::schedule::Flow;
 use crate::sensor::{CameraSensor, Looking, Scratch, Seen, Sensor, Tile, View};
 use crate::settings::{Masks, SettingValue, Settings};
 
@@ -106,11 +107,14 @@ struct Pixel<'a> {
 }
 
 /// Takes the pixel (column, row) of a render with these settings apart. Direct light only: `area`, `hemisphere`, `mis`.
+///
+/// `watch` is asked before each viewing ray whether to go on; stopped, what is there is no whole pixel.
 pub fn explain(
     scene: &Scene,
     [x, y]: [u32; 2],
     settings: &Settings,
     environment: Option<Vec<(String, Light)>>,
+    watch: &mut dyn FnMut() -> Flow,
 ) -> Result<Explained, SceneError> {
     check(scene, settings)?;
     let mut messages = settings.doubts();
@@ -143,8 +147,10 @@ pub fn explain(
         seed: settings.seed,
         passes,
     };
-    let viewing_rays: Vec<ViewingRay> =
-        (0..passes.until).map(|pass| pixel.viewing_ray(&looking, &sensor, pass)).collect();
+    let viewing_rays: Vec<ViewingRay> = (0..passes.until)
+        .take_while(|_| watch() == Flow::Continue)
+        .map(|pass| pixel.viewing_ray(&looking, &sensor, pass))
+        .collect();
     let mut value = [0.0; 3];
     for ray in &viewing_rays {
         let all = ray.light_rays.iter().map(|l| l.brings).chain([ray.emission]);

@@ -27,13 +27,13 @@ struct Buffers {
 type Coded = (Tile, Vec<Vec<f32>>);
 
 /// One layer a light, of 0 umbra, 1 penumbra, 2 antumbra, 3 lit, −1 where nothing is met or the light does not shine;
-/// `None` if `watch` stopped it.
+/// `None` if `watch` stopped it, which is called with the tiles that are done and all of them.
 pub(super) fn region_maps(
     scene: &Scene,
     settings: &Settings,
     (camera, view): (&Camera, View),
     messages: &mut Vec<Message>,
-    watch: &mut dyn FnMut() -> Flow,
+    watch: &mut dyn FnMut(u64, u64) -> Flow,
 ) -> Option<Vec<Layer>> {
     let names = layer_names(scene);
     if names.len() < scene.lights().len() {
@@ -52,9 +52,9 @@ pub(super) fn region_maps(
             *codes = tile_codes(scene, settings, &sensor, *tile, (&finder, lights), b);
         }
     };
-    let mut stopped = false;
-    let mut look = |_| {
-        let flow = watch();
+    let (mut stopped, count) = (false, tiles.len() as u64);
+    let mut look = |done| {
+        let flow = watch(done, count);
         stopped |= flow == Flow::Stop;
         flow
     };

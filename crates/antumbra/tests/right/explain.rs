@@ -5,6 +5,7 @@ use antumbra::light::{LightPoints, Point};
 use antumbra::math::{Rgb, Vec3};
 use antumbra::render::{Explained, LightRay, explain};
 use antumbra::scene::{Material, Scene};
+use antumbra::schedule::Flow;
 use antumbra::sensor::Viewing;
 use antumbra::settings::Settings;
 
@@ -15,7 +16,7 @@ use super::{glass, rooms};
 use EstimatorKind::{Area, Hemisphere, Mis};
 
 fn taken(scene: &Scene, pixel: [u32; 2], settings: &Settings) -> Explained {
-    explain(scene, pixel, settings, None).unwrap()
+    explain(scene, pixel, settings, None, &mut || Flow::Continue).unwrap()
 }
 
 /// Pixels of the room: on the floor in half shadow, on a wall, on the lamp, in a corner of the picture.
@@ -125,7 +126,10 @@ fn check_row(row: &LightRay, samples: f32) {
 fn other_estimators_and_pixels_are_refused() {
     let scene = rooms::lit().build().unwrap();
     let wrong = |pixel, s: Settings| {
-        explain(&scene, pixel, &s, None).err().map(|e| format!("{e} {}", e.hint)).unwrap_or_default()
+        explain(&scene, pixel, &s, None, &mut || Flow::Continue)
+            .err()
+            .map(|e| format!("{e} {}", e.hint))
+            .unwrap_or_default()
     };
     for kind in EstimatorKind::ALL.iter().filter(|k| ![Area, Hemisphere, Mis].contains(k)) {
         assert!(wrong([0, 0], small(*kind)).contains("Choose estimator area"), "{kind:?}");

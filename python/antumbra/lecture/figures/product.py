@@ -12,7 +12,8 @@ from antumbra.lecture.measures.ratio import excess, ratio, times
 from antumbra.lecture.quantity import Quantity
 from antumbra.lecture.run import Run
 from antumbra.lecture.scenes import disk_over_floor
-from antumbra.lecture.stages import Frame, Strip
+from antumbra.lecture.sketches.product import seen_times_unshadowed
+from antumbra.lecture.stages import Strip
 
 RADII = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.75, 0.9, 1.1, 1.3, 1.6, 2.0]
 INSIDE, OUTSIDE = (0.3, 0.0, 0.0), (0.95, 0.0, 0.0)
@@ -38,30 +39,7 @@ def _measure(run: Run) -> Mapping[str, Quantity]:
 
 
 def _stage(run: Run, measured: Mapping[str, Quantity]) -> list[Strip]:
-    frames = []
-    for radius in RADII:
-        key = f"r{radius:.2f}"
-        seen, light, true = (
-            run.aov(key, "visible-fraction"),
-            run.aov(key, "unshadowed-direct"),
-            run.pixels(key),
-        )
-        product, white = seen[..., None] * light, float(light.max())
-        off = np.where(product > 0.1 * white, true / np.maximum(product, 1e-9) - 1, 0.0).mean(2)
-        span = f"{100 * off.min():+.0f} to {100 * off.max():+.0f} %".replace("-", "−")
-        pictures = [
-            run.map(seen, f"Visible fraction, from {seen.min():.2f} to 1.", name=f"{key}-seen", unit="%"),
-            run.picture(light, "Unshadowed light, brightest in the middle.", name=f"{key}-light", white=white),
-            run.picture(product, "The product: a shadow.", name=f"{key}-product", white=white),
-            run.picture(true, "The true picture: a shadow of another shape.", name=f"{key}-true", white=white),
-            run.map(off, f"True over product less 1: {span}.", name=f"{key}-off", ramp="signed", low=-0.15, high=0.15, unit="%"),
-        ]  # fmt: skip
-        frames.append(
-            Frame(f"{radius:g}", f"R = {radius:g}: off by {span}", pictures, short=f"R = {radius:g}")
-        )
-    label = "Radius R of the light, 2 above the floor; the occluder, of radius 0.2, hangs halfway"
-    return [Strip("R", label, frames, 4, ("V, seen", "E, unshaded", "V · E", "true", "true / V·E"),
-        note="The last map, true light over V · E: white where both agree, orange where there is more light, blue where less.")]  # fmt: skip
+    return [seen_times_unshadowed(run, RADII, start=4)]
 
 
 FIGURE = Figure(
@@ -70,8 +48,8 @@ FIGURE = Figure(
         "A point of the floor sees the share V of the light, and without the occluder it would get E. Does it get V · E?",
         ("yes", "some per cent more or less", "less than half of it"), 1,
     ),
-    variants=[Variant(f"r{r:.2f}", disk_over_floor(r), LOOK) for r in RADII],
-    measure=_measure, stage=_stage, exr=["r0.50"],
+    variants=[Variant(f"r{r:g}", disk_over_floor(r), LOOK) for r in RADII],
+    measure=_measure, stage=_stage, exr=["r0.5"],
     answer=Number("more", "So much more than V · E arrives at x = 0.3 under a light of radius 0.5. The half of the light that is "
         "still seen there is the half with the larger cosines.", before="+"),
     equation=Equation(

@@ -4,17 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-import numpy as np
-
 from antumbra.lecture.chapters import DIRECT
 from antumbra.lecture.disks import from_above, receiver_behind
 from antumbra.lecture.figure import Claim, Equation, Figure, Number, Pick, Question, Variant
 from antumbra.lecture.geometry import Disks
-from antumbra.lecture.measures.regions import Radii, crossing, radii
+from antumbra.lecture.measures.regions import crossing, radii_of
 from antumbra.lecture.quantity import Quantity
 from antumbra.lecture.run import Run
-from antumbra.lecture.stages import Frame, Part, Strip
-from antumbra.lecture.stages.regions import regions_key, side_view
+from antumbra.lecture.sketches.regions import receiver_moved
+from antumbra.lecture.stages import Part
+from antumbra.lecture.stages.regions import regions_key
 
 DISKS, HALF = Disks(R=1.0, r=0.5, a=4.0), 4.0
 DISTANCES = [0.5 * step for step in range(1, 17)]
@@ -24,14 +23,9 @@ LOOK = {
 }  # fmt: skip
 
 
-def _radii(run: Run, g: float) -> Radii:
-    regions = run.aov(f"g{g}", "regions").astype(int)
-    return radii(regions, 2 * HALF / len(regions))
-
-
 def _measure(run: Run) -> Mapping[str, Quantity]:
-    found = {g: _radii(run, g) for g in DISTANCES}
-    pixel = 2 * HALF / len(run.aov("g4.0", "regions"))
+    found = {g: radii_of(run, f"g{g}", 2 * HALF) for g in DISTANCES}
+    pixel = 2 * HALF / len(run.light("g4.0"))
     seen = [g for g in DISTANCES if found[g].signed]
     wide = max(abs(found[g].outside - DISKS.penumbra(g)) for g in DISTANCES)
     return {
@@ -42,53 +36,23 @@ def _measure(run: Run) -> Mapping[str, Quantity]:
 
 
 def _stage(run: Run, measured: Mapping[str, Quantity]) -> list[Part]:
-    frames = []
-    for g in DISTANCES:
-        at, key = _radii(run, g), f"g{g}"
-        name, radius = ("umbra", at.umbra) if g < DISKS.length else ("antumbra", at.antumbra)
-        meaning = f"{name} radius {radius:.2f}" if g != DISKS.length else "the umbra closes"
-        light, full = run.light(key), float(run.aov(key, "unshadowed-direct").max())
-        centre = light[len(light) // 2, len(light) // 2] / full
-        true = (max(DISKS.umbra(g), 0.0), DISKS.penumbra(g), max(-DISKS.umbra(g), 0.0))
-        facts = [
-            f"{m:.3f} / {t:.3f}" if m else "none here"
-            for m, t in zip((at.umbra, at.outside, at.antumbra), true, strict=True)
-        ]
-        pictures = [
-            run.classes(run.aov(key, "regions").astype(np.uint8), f"Region map at g = {g}: {meaning}, in a penumbra out to {at.outside:.2f}.", name=f"{key}-map"),
-            run.picture(key, f"Picture of the receiver at g = {g}: its centre has {centre:.0%} of the unshadowed light.", white=full),
-        ]  # fmt: skip
-        drawing = side_view(DISKS, g, ("light, R = 1", "occluder, r = ½", "a = 4"))
-        frames.append(
-            Frame(
-                f"{g:g}",
-                f"g = {g}: {meaning}",
-                pictures,
-                f"g = {g}",
-                f", penumbra out to {at.outside:.2f}",
-                drawing,
-                facts,
-            )
-        )
     note = (
         f"Radii measured in the map / from similar triangles; one pixel is {measured['pixel']} wide. {run.pick(LOOK['region_points'])} points inside "
         f"the light and as many on its outline decide each pixel. Each picture is exposed for its own unshadowed centre."
     )
-    labels = ("Side view", "Region of every pixel", "Picture of the receiver")
-    strip = Strip("g", "Receiver, distance g behind the occluder", frames, 11, labels)
-    return [strip, regions_key("g", (0, 1, 2, -1), note)]
+    return [receiver_moved(run, DISKS, DISTANCES, 2 * HALF), regions_key("g", (0, 1, 2, -1), note)]
 
 
 FIGURE = Figure(
     number=2, chapter=1, title="Where the umbra ends", seconds=Pick(5, 110),
     question=Question(
         "Move the receiver away from the occluder. How far behind it does the dark core vanish, and what is there afterwards?",
-        ("g = 2, then only penumbra", "g = 4, then a ring of light", "never: it only shrinks"), 1,
+        ("g = 2, then only penumbra", "g = 4, then points that see a ring of the light", "never: it only shrinks"), 1,
     ),
     variants=[Variant(f"g{g}", receiver_behind(DISKS, g), LOOK | from_above(0.98 * g, HALF)) for g in DISTANCES],
     measure=_measure, stage=_stage, exr=["g6.0"],
-    answer=Number("closes", "The umbra closes at g = a·r/(R − r) = 4. Behind that point the occluder is too small to cover the light: a ring "
-        "stays visible. That is the antumbra."),
+    answer=Number("closes", "The umbra closes at g = a·r/(R − r) = 4. From farther on the occluder looks smaller than the light, and a ring of "
+        "the light is seen around it. That is the antumbra."),
     equation=Equation(
         [DIRECT, (r"u(\mark{g}) = r - (R - r) \frac{\mark{g}}{a} = 0 \quad \Longrightarrow \quad g = \frac{a \, r}{R - r}",
                   "u(g) = r − (R − r) g / a = 0, so g = a r / (R − r)")],

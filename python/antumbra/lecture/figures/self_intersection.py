@@ -3,125 +3,39 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from antumbra.lecture.figure import Claim, Equation, Figure, Number, Pick, Question, Variant
-from antumbra.lecture.leaning_board import ANGLE, FLOOR, Truth, leaning_board, look, truth
-from antumbra.lecture.measures.replicates import mean_of
-from antumbra.lecture.quantity import Quantity, written
+from antumbra.lecture.leaning_board import ANGLE, leaning_board, look
+from antumbra.lecture.measures.start_points import starts_measured, worst_file
+from antumbra.lecture.quantity import Quantity
 from antumbra.lecture.run import Run
-from antumbra.lecture.stages import Entry, Frame, Key, Part, Strip
-from antumbra.study.statistics import power_of_ten
+from antumbra.lecture.sketches.start_points import starts_compared
+from antumbra.lecture.stages import Part
 
 # The same scene written in three units: coordinates of one metre.
 FILES = {"kilometres": 1e-3, "metres": 1.0, "millimetres": 1e3}
 STARTS = {"none": "none", **{f"{power}": f"epsilon:1e{power}" for power in range(-10, 2)}, "safe": "safe"}
-FIRST = list(STARTS).index("none")
-# Where the camera stands; `foot`: a column of pixels across the foot of the board, from below it.
-VIEWS: dict[str, dict[str, Any]] = {
-    "all": {
-        "eye": (2.9, 1.4, 2.7),
-        "at": (0.08, 0.13, 0.2),
-        "fov": 0.42,
-        "size": Pick((280, 160), (560, 320)),
-    },
-    "foot": {"eye": (1.3, 0.5, 0.0), "at": (0.2, 0.0, 0.0), "fov": 0.19, "size": Pick((4, 600), (4, 2400))},
-}
 RAYS = {"estimator": "area", "viewing": "centre", "viewing_rays": 1, "shadow_rays": 1, "aov": "albedo"}
-
-
-def _camera(file: str, view: str) -> dict[str, Any]:
-    words = dict(VIEWS[view])
-    size = words.pop("size")
-    return {**look(FILES[file], **words), "size": size}
-
-
-def _truth(run: Run, file: str, view: str) -> tuple[Truth, NDArray[np.bool_]]:
-    """The closed form of a view, and which viewing rays meet something else than it says."""
-    camera = {name: run.pick(value) for name, value in _camera(file, view).items()}
-    scene, scale = run.scene(leaning_board(FILES[file])), FILES[file]
-    origins, directions = scene.camera_rays(**camera)
-    true, met = truth(origins, directions, scale), scene.closest_hit(origins, directions)
-    near = np.isclose(met.t / scale, true.distance, rtol=0, atol=1e-4)
-    agree = near & ((met.mesh == true.object) | (true.object < 0))
-    return true, ~agree
-
-
-def _share(wrong: NDArray[np.bool_], note: str) -> Quantity:
-    """A share of pixels, its error from 8 parts of the picture that lie like a comb."""
-    return mean_of([np.mean(wrong[part::8]) for part in range(8)], unit="%", note=note)
+# The scene, and a column of pixels across the foot of the board, from below it.
+CAMERAS = {
+    file: {
+        "all": look(scale, (2.9, 1.4, 2.7), (0.08, 0.13, 0.2), 0.42) | {"size": Pick((280, 160), (560, 320))},
+        "foot": look(scale, (1.3, 0.5, 0.0), (0.2, 0.0, 0.0), 0.19) | {"size": Pick((4, 600), (4, 2400))},
+    }
+    for file, scale in FILES.items()
+}
 
 
 def _measure(run: Run) -> Mapping[str, Quantity]:
-    found, viewing = {}, []
-    for file in FILES:
-        (true, wrong), (near, _) = (_truth(run, file, view) for view in VIEWS)
-        viewing.append(wrong)
-        step = abs(np.gradient(near.place[:, 0].reshape(-1, 4)[:, 0])).repeat(4) / 4
-        for start in STARTS:
-            lit, lost = (run.light(f"{start}-{file}-{view}").ravel() > 0 for view in VIEWS)
-            found[f"false_{file}_{start}"] = _share(
-                ~lit[true.facing & true.free], "of the pixels that see the light"
-            )
-            found[f"wrong_{file}_{start}"] = _share(
-                (lit != true.free)[true.facing], "of the pixels that face the light"
-            )
-            lost &= (near.object == FLOOR) & ~near.free
-            edge = float(step[lost].max()) if lost.any() else 0.0
-            found[f"foot_{file}_{start}"] = Quantity(
-                1e3 * float(step[lost].sum()), 2e3 * edge, "mm", "± half a pixel"
-            )
-    worst = {
-        start: max((found[f"wrong_{file}_{start}"] for file in FILES), key=lambda q: q.value)
-        for start in STARTS
-    }
-    fixed = min((worst[start] for start in STARTS if start != "safe"), key=lambda q: q.value)
-    views = np.concatenate(viewing)
-    return {
-        **found,
-        "ours": worst["safe"],
-        "fixed": fixed,
-        "viewing": _share(views, f"of {len(views):,} viewing rays"),
-    }
+    found = starts_measured(run, FILES, list(STARTS), CAMERAS)
+    fixed = min((worst_file(found, start) for start in STARTS if start != "safe"), key=lambda q: q.value)
+    return found | {"ours": worst_file(found, "safe"), "fixed": fixed}
 
 
 def _stage(run: Run, measured: Mapping[str, Quantity]) -> list[Part]:
-    frames, white = [], 0.85 * run.white(*(f"safe-{file}-all" for file in FILES))
-    for start in STARTS:
-        wrong = [measured[f"wrong_{file}_{start}"] for file in FILES]
-        pictures = [
-            run.picture(
-                run.pixels(f"{start}-{file}-all") + 0.05 * white * run.aov(f"{start}-{file}-all", "albedo"),
-                f"In {file}, {_says(start)}: {each:v} of the pixels are wrong.", name=f"{start}-{file}", white=white, tones=96, noise=True,
-            )
-            for file, each in zip(FILES, wrong, strict=True)
-        ]  # fmt: skip
-        facts = [
-            f"false shadow {written(100 * measured[f'false_{file}_{start}'].value, 2)} %, contact lost {_lost(measured[f'foot_{file}_{start}'])}"
-            for file in FILES
-        ]
-        says = f"{_says(start)}: {', '.join(f'{100 * each.value:.1f}' for each in wrong)} % of pixels wrong"
-        frames.append(Frame(start, says, pictures, _says(start), facts=facts))
-    key = [
-        Entry("var(--soft)", file, f"one metre is {written(scale)}", fact=n, always=frames[FIRST].facts[n])
-        for n, (file, scale) in enumerate(FILES.items())
-    ]
-    label = "Start of the shadow rays: at the point, ε above it in the units of the file, or where antumbra has it"
-    return [
-        Strip("start", label, frames, FIRST, [f"in {file}" for file in FILES]),
-        Key(key, "start", "One scene in three files. Wrong: pixels whose visibility differs from the closed form. Contact: the shadow at the foot of the board."),
-    ]  # fmt: skip
-
-
-def _says(start: str) -> str:
-    return {"none": "no offset", "safe": "ours"}.get(start) or f"ε = {power_of_ten(int(start))}"
-
-
-def _lost(width: Quantity) -> str:
-    return f"{written(width.value, 2)} mm" if width.value < 400 else "all of it"
+    return starts_compared(run, measured, FILES, list(STARTS))
 
 
 FIGURE = Figure(
@@ -132,8 +46,8 @@ FIGURE = Figure(
         ("they are computed more exactly", "they ask what is first, not if anything is there", "some do, unseen"), 1,
     ),
     variants=[
-        Variant(f"{start}-{file}-{view}", leaning_board(scale), {**RAYS, **_camera(file, view), "self_intersection": option})
-        for start, option in STARTS.items() for file, scale in FILES.items() for view in VIEWS
+        Variant(f"{start}-{file}-{view}", leaning_board(scale), {**RAYS, **CAMERAS[file][view], "self_intersection": option})
+        for start, option in STARTS.items() for file, scale in FILES.items() for view in ("all", "foot")
     ],
     measure=_measure, stage=_stage, exr=["none-metres-all"],
     answer=Number("false_metres_none", "So many lit pixels are in false shadow without an offset; of the viewing rays {viewing} are wrong. "

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from antumbra.lecture.measures.replicates import of_interval
 from antumbra.lecture.quantity import Quantity
+from antumbra.lecture.run import Run
 from antumbra.study._quantiles import t_quantile
 from antumbra.study.statistics import Interval
 
@@ -33,6 +34,12 @@ def radii(regions: NDArray[np.integer[Any]], pixel: float) -> Radii:
     """Radii in a map (H, W) of regions about one axis, whose pixels are `pixel` wide."""
     of = [pixel * math.sqrt(np.count_nonzero(chosen) / math.pi) for chosen in _disks(regions)]
     return Radii(*of)
+
+
+def radii_of(run: Run, key: str, width: float) -> Radii:
+    """Radii in the map of regions of a variant whose picture is `width` wide."""
+    regions = run.aov(key, "regions").astype(int)
+    return radii(regions, width / len(regions))
 
 
 def _disks(regions: NDArray[np.integer[Any]]) -> list[NDArray[np.bool_]]:

@@ -11,8 +11,15 @@ from numpy.typing import ArrayLike, NDArray
 
 from antumbra.anatomy import Visits
 from antumbra.hit import Receivers
+from antumbra.lecture.measures.replicates import mean_of
+from antumbra.lecture.quantity import Quantity
+from antumbra.lecture.run import Run
 from antumbra.scene import Scene
 
+RAYS = {True: "blocked", False: "free"}
+COUNTS = ("any_boxes", "closest_boxes", "any_primitives", "closest_primitives")
+# Of each kind of hit, to know its rate.
+_CALLS = 7
 # Closest hit ends this far before the light, which it would meet otherwise.
 _SHORT = 0.9999
 
@@ -70,21 +77,42 @@ def disagree(scene: Scene, asked: Asked) -> float:
     return float(np.mean(blocked != asked.visits.blocked))
 
 
-def rates(scene: Scene, asked: Asked, blocked: bool) -> tuple[float, float]:
-    """Million rays a second of any hit and of closest hit on all cores, the best of five calls each."""
+def visits_measured(
+    run: Run, scene: Scene, size: tuple[int, int], times: int
+) -> tuple[dict[str, Quantity], float]:
+    """Of `times` random points of a light each: means of every count of `COUNTS`, shares, what any hit saves, and rates
+    [million rays/s], for rays that are "blocked" and "free"; and the share of rays where the two kinds of hit disagree.
+    """
+    asked = [shadow_rays(scene, size, np.random.default_rng(run.seeded(n))) for n in range(times)]
+    run.rays += sum(2 * len(each.targets) for each in asked)
+    found = {"saved": mean_of([each.saved() for each in asked], unit="%")}
+    for blocked, word in RAYS.items():
+        chosen = [each.visits.blocked == blocked for each in asked]
+        for count in COUNTS:
+            found[f"{count}_{word}"] = mean_of([each.mean(count, blocked) for each in asked])
+        found[f"share_{word}"] = mean_of([np.mean(some) for some in chosen], unit="%")
+        saved = [each.saved(some) for each, some in zip(asked, chosen, strict=True)]
+        found[f"saved_{word}"] = mean_of(saved, unit="%")
+        for kind, each_call in _rates(scene, asked[0], blocked).items():
+            found[f"{kind}_rate_{word}"] = mean_of(each_call, "M/s", f"{_CALLS} calls on all cores")
+    return found, disagree(scene, asked[0])
+
+
+def _rates(scene: Scene, asked: Asked, blocked: bool) -> dict[str, list[float]]:
+    """Million rays a second of any hit and of closest hit on all cores, call by call."""
     some = asked.visits.blocked == blocked
     receivers, targets = asked.receivers[some], asked.targets[some]
     along = targets - receivers.positions
-    return (
-        _rate(len(targets), lambda: scene.occluded(receivers, targets)),
-        _rate(len(targets), lambda: scene.closest_hit(receivers, along, _SHORT)),
-    )
+    return {
+        "any": _calls(len(targets), lambda: scene.occluded(receivers, targets)),
+        "closest": _calls(len(targets), lambda: scene.closest_hit(receivers, along, _SHORT)),
+    }
 
 
-def _rate(count: int, call: Callable[[], object]) -> float:
-    took = []
-    for _ in range(5):
+def _calls(count: int, call: Callable[[], object]) -> list[float]:
+    found = []
+    for _ in range(_CALLS):
         began = time.perf_counter()
         call()
-        took.append(time.perf_counter() - began)
-    return count / min(took) / 1e6
+        found.append(count / (time.perf_counter() - began) / 1e6)
+    return found

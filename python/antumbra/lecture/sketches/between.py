@@ -1,13 +1,49 @@
-"""A ray from a cylinder through a light to a plane, with t where it meets them."""
+"""A ray from a cylinder through a light to a plane, with t where it meets them; the slider that moves the plane."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
-from antumbra.lecture.stages import Drawing, Sketch
+from antumbra.lecture.measures.false_shadow import wrong_pixels
+from antumbra.lecture.quantity import minus
+from antumbra.lecture.run import Run
+from antumbra.lecture.stages import Drawing, Frame, Sketch, Strip
 from antumbra.lecture.stages.drawing import INK, LIGHT, LIT, RIM, Point
 
 GREEN, ORANGE, SOFT = "#12793a", "#bf3a12", "#555c69"
+
+
+def plane_moved(
+    run: Run, heights: Sequence[float], start: float, p: Point, cylinder: tuple[float, float]
+) -> Strip:
+    """The plane at each height, without the test and with it: variants `off` and `on`; `cylinder`: axis and radius."""
+    white = 1.3 * run.white(f"on{start}")
+    frames = [_frame(run, height, start, p, cylinder, white) for height in heights]
+    label = "Height of the plane [m]; the light is at 0, the cylinder above it"
+    labels = ("seen along the cylinder", "--distance-test off", "on")
+    note = (
+        "Green: the part from p to the light, t from 0 to 1. Orange: what a ray without end goes on to find; "
+        "with it the plane gets a shadow of what hangs above the light."
+    )
+    return Strip("plane", label, frames, heights.index(start), labels, note=note)
+
+
+def _frame(
+    run: Run, height: float, start: float, p: Point, cylinder: tuple[float, float], white: float
+) -> Frame:
+    t = (p[1] - height) / p[1]
+    where = "behind the light" if t > 1 else "at the light" if t == 1 else "between: a shadow"
+    wrong = wrong_pixels(run, height, start)
+    alts = {
+        "off": f"Without the test, the plane at {height}: {wrong:v} of the pixels are wrong.",
+        "on": f"With the test, the plane at {height}: the cylinder is {'lit' if t > 1 else 'dark'} below.",
+    }
+    pictures = [
+        run.picture(f"{test}{height}", alt, white=white, colour=True, tones=128) for test, alt in alts.items()
+    ]
+    says = f"plane at {minus(f'{height:g}')} m: met at t = {t:.2f}, {where}"
+    drawing = along_the_cylinder(p, height, *cylinder)
+    return Frame(f"{height:g}", says, pictures, f"t = {t:.2f}", drawing=drawing)
 
 
 def along_the_cylinder(p: Point, plane: float, axis: float, radius: float) -> Drawing:

@@ -1,4 +1,4 @@
-"""Shadow rays over a picture, from a receiver to the cells of a square light."""
+"""Shadow rays over a picture, from a receiver to the cells of a square light, and their table."""
 
 from __future__ import annotations
 
@@ -8,8 +8,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from antumbra.lecture.stages import Drawing, Sketch
+from antumbra.lecture.measures.pixel_rays import Rays
+from antumbra.lecture.run import Run
+from antumbra.lecture.stages import Drawing, Linked, Sketch, Table
 from antumbra.lecture.stages.drawing import LIGHT, RIM, Point
+from antumbra.lecture.three_pillars import ALBEDO, AREA, CORNER, RADIANCE, VIEW, U, V, three_pillars
 
 Array = NDArray[np.float64]
 Project = Callable[[ArrayLike], Point]
@@ -70,3 +73,47 @@ def rays_over(
     return sketch.done(
         f"{len(rays)} shadow rays from the receiver to the light: {free} free, {len(rays) - free} blocked."
     )
+
+
+def table_of_rays(rays: Rays, note: str) -> Table:
+    """The factors of each ray, their products, and the sum; the density per area and per solid angle."""
+    columns = (
+        (rays.cos, 3), (rays.cos_light, 3), (rays.squared, 2), (rays.pdf, 3), (rays.pdf_angle, 2), (rays.brings, 4),
+    )  # fmt: skip
+    rows = [
+        [
+            f"{n + 1}",
+            "free" if free else "blocked",
+            *(f"{factor[n]:.{places}f}" for factor, places in columns),
+        ]
+        for n, free in enumerate(rays.free)
+    ]
+    head = ("ray", "V", "cos θ", "cos θ′", "r²", "pdf [1/m²]", "pdf [1/sr]", "brings")
+    caption = "The shadow rays of this pixel, factor by factor"
+    foot = ["sum = pixel", "", "", "", "", "", "", f"{rays.brings.sum():.4f}"]
+    return Table(head, rows, caption, foot, fine=(5, 6), note=note)
+
+
+def shadow_rays_linked(run: Run, key: str, rays: Rays, cells: int) -> Linked:
+    """The rays over the picture `key` of the three pillars, and their table; one is drawn to what it meets first."""
+    start = rays.p + [0.0, 1e-4, 0.0]
+    along = rays.points - start
+    met = run.scene(three_pillars).closest_hit(np.repeat(start[None], len(along), 0), along).t
+    ends = start + np.minimum(met, 1.0)[:, None] * along
+    drawn = [Drawn(*ray) for ray in zip(rays.points, ends, rays.free.tolist(), strict=True)]
+    overlay = rays_over(projector(**VIEW), VIEW["size"], (CORNER, U, V), cells, rays.p, drawn)
+    alt = (
+        "Three pillars and a ball under a square light; the receiver lies in the penumbra of the tallest pillar, "
+        f"{int(rays.free.sum())} of {len(drawn)} rays are free."
+    )
+    picture = run.picture(key, alt, white=1.05 * run.white(key, share=90.0))
+    note = (
+        f"A ray brings fᵣ Lₑ / {len(drawn)} · V cos θ cos θ′ / (pdf r²), the pdf per area: 1/A = 1/({AREA:.2f} m²), "
+        f"fᵣ = {ALBEDO:g}/π and Lₑ = {RADIANCE:g} W·m⁻²·sr⁻¹. Per solid angle the same pdf is r²/(A cos θ′), "
+        "as antumbra explain prints it for any pixel. Point at a row: its ray lights up."
+    )
+    key_of_rays = (
+        "Green, dot: free. Orange, dashed, cross: blocked, drawn as far as it got. "
+        "One random point in each cell."
+    )
+    return Linked("ray", picture, overlay, table_of_rays(rays, note), key_of_rays)

@@ -37,9 +37,12 @@ def side_view(disks: Disks, g: float, names: tuple[str, str, str] = ("", "", "")
     sketch.light(at(-a, R), at(-a, -R)).line(at(0, r), at(0, -r), width=7)
     sketch.line((at(g, 0)[0], 6), (at(g, 0)[0], _HEIGHT - 6), width=3)
     light, occluder, distance = names
-    sketch.text((24, 224), light).text((204, 112), occluder, anchor="end").text(
-        (150, 224), distance, anchor="middle", fine=True
-    )
+    if occluder:
+        # Over the occluder, clear of light and rays also where the text is large.
+        sketch.line((at(0, 0)[0], 70), at(0, r), dash="1 3").text(
+            (at(0, 0)[0], 62), occluder, anchor="middle"
+        )
+    sketch.text((24, 224), light).text((150, 224), distance, anchor="middle", fine=True)
     sketch.text((at(g, 0)[0] - 8, 26), "receiver", anchor="end")
     state = "an umbra" if umbra > 0 else "an antumbra" if umbra < 0 else "the point where the umbra closes"
     return sketch.done(

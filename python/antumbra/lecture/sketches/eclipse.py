@@ -1,0 +1,65 @@
+"""Sun, moon and earth in one line: the slider that moves the moon."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from antumbra.lecture.geometry import Bodies
+from antumbra.lecture.measures.regions import Radii, radii_of
+from antumbra.lecture.run import Run
+from antumbra.lecture.stages import Frame, Strip
+
+# What the view to the sun shows: nothing, the moon, the sun. A black moon could not be told from the sky.
+_BODIES = ("#141a2e", "#555c69", "#f2b705")
+
+
+def moon_moved(run: Run, sky: Bodies, distances: Sequence[int], turns: int, width: float) -> Strip:
+    """Earth, ground and sun for each distance of the moon [km]: variants `space-`, `ground-` and `sky-`.
+
+    `turns`: where the umbra just touches the ground; `width`: of the ground that is seen.
+    """
+    white = 1.7 * run.white(f"space-{distances[-1]}")
+    frames = [
+        _frame(run, sky, distance, radii_of(run, f"ground-{distance}", width), turns, white)
+        for distance in distances
+    ]
+    labels = (
+        "The earth from space",
+        f"The ground, {width:.0f} km across",
+        "The sun from the ground, 0.7° across",
+    )
+    return Strip("moon", "Distance of the moon, from centre to centre", frames, 0, labels)
+
+
+def _frame(run: Run, sky: Bodies, d: int, at: Radii, turns: int, white: float) -> Frame:
+    says, covered, true = _says(at, d, turns), sky.covered(d, 0.0), sky.umbra(d)
+    seen = run.image(f"sky-{d}").aov
+    bodies = np.where(seen["emission"].max(2) > 0, 2, np.where(seen["albedo"].max(2) > 0, 1, 0))
+    regions = run.aov(f"ground-{d}", "regions").astype(np.uint8)
+    alts = (
+        f"The earth with the moon's shadow, the moon at {d:,} km.",
+        f"The ground at the axis of the shadow: {says}.",
+        f"The sun from the ground: {covered:.1%} of it is covered.",
+    )
+    pictures = [
+        run.picture(f"space-{d}", alts[0], white=white, colour=True, tones=64),
+        run.classes(regions, alts[1], name=f"ground-{d}"),
+        run.classes(bodies, alts[2], name=f"sky-{d}", colours=_BODIES),
+    ]
+    facts = [
+        f"radius {at.umbra:.1f} / {true:.1f} km" if true > 1 else "none here",
+        f"out to {sky.penumbra(d):,.0f} km",
+        f"radius {at.antumbra:.1f} / {-true:.1f} km" if true < -1 else "none here",
+    ]
+    more = f", {covered:.1%} of the sun covered"
+    return Frame(f"{d}", f"{d:,} km: {says}", pictures, f"{d:,} km", more, facts=facts)
+
+
+def _says(at: Radii, distance: int, turns: int) -> str:
+    if distance == turns:
+        return "the umbra just touches the ground"
+    if distance < turns:
+        return f"total, umbra {2 * at.umbra:.0f} km wide"
+    return f"annular, antumbra {2 * at.antumbra:.0f} km wide"

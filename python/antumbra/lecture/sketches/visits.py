@@ -1,0 +1,62 @@
+"""What shadow rays visit: maps of any hit and closest hit, and the table of all scenes."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from antumbra.lecture.measures.visits import COUNTS, RAYS, shadow_rays
+from antumbra.lecture.quantity import Quantity, written
+from antumbra.lecture.run import Run
+from antumbra.lecture.stages import Picture, Row, Table
+from antumbra.scene import Scene
+
+_WHAT = "boxes and triangles"
+
+
+def maps_of_visits(run: Run, scene: Scene, name: str, size: tuple[int, int], saved: Quantity) -> Row:
+    """Three maps of one shadow ray a pixel; `saved`: by blocked rays."""
+    asked = shadow_rays(scene, size)
+    blocked, high = asked.visits.blocked, float(np.percentile(asked.total("closest"), 99))
+    any_hit, closest = (asked.picture(asked.total(kind)) for kind in ("any", "closest"))
+    where = asked.picture(blocked)
+    run.exr(np.nan_to_num(np.stack([any_hit, closest, where], 2)), name)
+
+    def heat(kind: str, caption: str) -> Picture:
+        total = asked.total(kind)
+        means = [f"{total[some].mean():.0f}" for some in (blocked, ~blocked)]
+        alt = f"{caption}: {means[0]} {_WHAT} for a blocked ray, {means[1]} for a free one."
+        ramps = {"free": "blue", "blocked": "amber"}
+        values = asked.picture(total)
+        return run.map_of_two(
+            values, where == 1, alt, caption, name=f"{name}-{kind}", ramps=ramps, high=high, unit=_WHAT
+        )
+
+    alt = f"Saved: {saved:v} for blocked rays, nothing for free ones."
+    less = run.map(
+        closest - any_hit, alt, "saved by any hit", name=f"{name}-saved", ramp="amber", high=high / 2,
+        unit=_WHAT, noise=True,
+    )  # fmt: skip
+    note = "One ray a pixel, to the middle of a light; black: no ray."
+    return Row([heat("any", "any hit"), heat("closest", "closest hit"), less], note)
+
+
+def table_of_visits(measured: Mapping[str, Quantity], scenes: Sequence[str], note: str) -> Table:
+    """A line for the blocked and the free rays of each scene, its quantities named `scene_count_rays`."""
+    rows = []
+    for name in scenes:
+        for word in RAYS.values():
+            counts = [written(measured[f"{name}_{count}_{word}"].value) for count in COUNTS]
+            share, saved = (
+                f"{100 * measured[f'{name}_{what}_{word}'].value:.1f} %" for what in ("share", "saved")
+            )
+            rates = [
+                " ± ".join(measured[f"{name}_{kind}_rate_{word}"].number(1)) for kind in ("any", "closest")
+            ]
+            rows.append([f"{name}, {word}", share, *counts, saved, *rates])
+    head = (
+        "rays", "share", "boxes, any hit", "closest hit", "triangles, any hit", "closest hit", "saved",
+        "M rays/s, any hit", "closest hit",
+    )  # fmt: skip
+    return Table(head, rows, "Boxes and triangles visited by a shadow ray", fine=(1, 4, 5, 7, 8), note=note)
