@@ -159,7 +159,7 @@ def _as_text(found: dict[str, float], a: str, b: str, picture: Picture, output: 
         f"relMSE   {_say.significant(found['relmse'])}",
         f"FLIP     {_say.significant(found['flip'])}   (mean; 0: no difference seen, 1: black against white)",
     ]
-    return "\n".join(lines + ([f"map      {output}"] if output else []))
+    return "\n".join(lines + ([f"map      {output}   (FLIP: 0 black, 1 pale yellow)"] if output else []))
 
 
 def _as_json(found: dict[str, float], a: str, b: str, output: str | None) -> str:

@@ -38,6 +38,13 @@ def test_numbers_and_chapters_are_in_order():
     assert set(chapters) <= {chapter.number for chapter in CHAPTERS}
 
 
+@pytest.mark.parametrize("name", catalog.names())
+def test_a_figure_is_a_declaration(name):
+    file = catalog.sources(name)[-1]
+    assert file.stem == name.replace("-", "_")
+    assert len(file.read_text(encoding="utf-8").splitlines()) <= 90
+
+
 def test_questions_ask_and_answers_are_short():
     for name, figure in catalog.ordered().items():
         assert figure.question.text.rstrip().endswith("?"), name

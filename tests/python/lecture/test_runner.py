@@ -8,10 +8,12 @@ import os
 import signal
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
 from antumbra.lecture import catalog, keep, make
+from antumbra.lecture.figure import Figure
 
 
 def files(folder):
@@ -168,6 +170,14 @@ def test_a_record_that_was_cut_short_counts_as_not_finished(tmp_path, cut):
     (tmp_path / "kept").mkdir()
     (tmp_path / "kept/one.json").write_text(cut)
     assert keep.Folder(tmp_path).kept("one") is None
+
+
+def test_the_figure_of_the_guide_is_one():
+    guide = (Path(__file__).parents[3] / "docs/lecture.md").read_text(encoding="utf-8")
+    block = guide.split("```python\n")[1].split("```")[0]
+    made: dict = {}
+    exec(compile(block, "docs/lecture.md", "exec"), made)
+    assert isinstance(made["FIGURE"], Figure)
 
 
 HOSTILE = [
