@@ -101,7 +101,10 @@ impl SceneBuilder {
             if dropped > 0 {
                 said.push((
                     place,
-                    format!("{dropped} triangles with coordinates that are not finite: left out"),
+                    match dropped {
+                        1 => "a triangle with coordinates that are not finite: left out".into(),
+                        n => format!("{n} triangles with coordinates that are not finite: left out"),
+                    },
                 ));
             }
         }

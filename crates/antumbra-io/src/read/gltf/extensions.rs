@@ -73,7 +73,10 @@ pub(super) fn check(doc: &Document, said: &mut Counted) -> Result<(), ReadError>
 
 /// What a person can do about geometry that cannot be read.
 pub(super) fn advice(name: &str) -> &'static str {
-    if name == "KHR_draco_mesh_compression" || MESHOPT.contains(&name) {
+    if name == "KHR_draco_mesh_compression" {
+        "The extra that will read it, antumbra[draco], is not there yet: until then, write it without compression:\n\
+         `npx @gltf-transform/cli copy IN.glb OUT.glb` unpacks it."
+    } else if MESHOPT.contains(&name) {
         "Write it without compression: `npx @gltf-transform/cli copy IN.glb OUT.glb` unpacks it."
     } else {
         "Export the scene again without this extension."

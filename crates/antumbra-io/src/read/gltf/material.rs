@@ -135,7 +135,7 @@ impl Reader<'_> {
         let pbr = &m.pbr_metallic_roughness;
         if share < 0.5 || pbr.metallic_factor >= 0.5 && pbr.metallic_roughness_texture.is_none() {
             if share > 0.0 {
-                self.said.note(place, "lets a part of the light through: drawn opaque");
+                self.said.warn(place, "lets a part of the light through: drawn opaque");
             }
             return None;
         }
