@@ -1,7 +1,7 @@
 # The verbs of this repository; `make` alone lists them. Everything they need is set up on the way.
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
-.PHONY: help demo test lint bench stress docs wheel setup clean
+.PHONY: help demo test lint bench stress docs gallery wheel setup clean
 
 VENV := .venv
 RIVALS := .venv-bench
@@ -42,13 +42,16 @@ bench: $(RIVALS)/.ok ## measure speed: kernels, then races against other program
 docs: $(VENV)/.ok ## write the reference pages that are made from the source
 	$(BIN)/python tools/reference.py
 
-wheel: $(VENV)/.ok ## a wheel for other machines, in dist/
-	$(BIN)/pip wheel --quiet --no-deps -w dist .
+gallery: $(VENV)/.ok ## render the glTF assets of the test data into docs/pictures/gallery.jpg
+	$(BIN)/python tools/gallery.py
+
+wheel: ## a wheel for other machines, in dist/ (WHEEL=quick: for this one, from what is built already)
+	@tools/wheel.sh $(WHEEL)
 
 setup: $(VENV)/.dev ## the environment alone
 
 clean: ## remove everything that was built
-	rm -rf $(VENV) $(RIVALS) target dist python/antumbra/*.so
+	rm -rf $(VENV) $(RIVALS) .venv-wheel target dist python/antumbra/*.so
 
 $(VENV)/.ok: $(SOURCES)
 	@tools/setup.sh $(VENV) .
