@@ -16,7 +16,7 @@ FOLDER = data_folder()
 MANIFEST = (
     json.loads((FOLDER / "malformed/manifest.json").read_text(encoding="utf-8")) if FOLDER else {"cases": []}
 )
-NOT_READ = {".xml": "Mitsuba 3 XML", ".pbrt": "pbrt-v4"}
+NOT_READ = {".pbrt": "pbrt-v4"}
 SETTINGS = ["--size", "16x16", "--viewing-rays", "1"]
 
 
