@@ -136,7 +136,23 @@ class Plastic(Described):
         }
 
 
-Material = Diffuse | Mirror | MetallicRoughness | Conductor | Dielectric | ThinDielectric | Plastic
+@dataclass(frozen=True)
+class Blend(Described):
+    """Two materials in one: light is reflected as by (1 − `weight`) of the `first` and `weight` of the `second`.
+
+    Each ray meets one of the two, drawn by a hash of the ray, so that a picture of a blend is noisier than its parts.
+    """
+
+    first: Material
+    second: Material
+    weight: float = 0.5
+
+    def fields(self) -> Fields:
+        """Its own number; a scene adds the two materials."""
+        return {"weight": [fraction("weight", self.weight)]}
+
+
+Material = Diffuse | Mirror | MetallicRoughness | Conductor | Dielectric | ThinDielectric | Plastic | Blend
 
 
 def _metal(name: str) -> tuple[list[float], list[float]]:

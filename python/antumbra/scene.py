@@ -23,7 +23,7 @@ from antumbra.estimate import Estimate
 from antumbra.hit import Hit, Receivers
 from antumbra.image import Image
 from antumbra.lights import Environment, Light
-from antumbra.materials import Diffuse, Material
+from antumbra.materials import Blend, Diffuse, Material
 from antumbra.messages import Message
 from antumbra.shapes import Shape
 
@@ -166,7 +166,11 @@ class Scene(Anatomy):
         look = Diffuse() if material is None else material
         kind = one_of("material", look, Material)
         radiance = None if emission is None else color("emission", emission)
-        return self._core.add_material(kind, look.fields(), radiance)
+        fields = look.fields()
+        if isinstance(look, Blend):
+            parts = {"first": look.first, "second": look.second}
+            fields |= {name: [float(self._material(part, None))] for name, part in parts.items()}
+        return self._core.add_material(kind, fields, radiance)
 
     # ---- pictures ----
 

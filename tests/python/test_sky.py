@@ -87,3 +87,16 @@ def test_what_the_verb_refuses(options, said, antumbra, tmp_path):
     done = antumbra("sky", *options)
     assert (done.code, said in done.err) == (2, True), done.err
     assert not list(tmp_path.iterdir())
+
+
+def test_blends_of_materials():
+    """Under an even sky a blend of two albedos shows their weighted mean; five standard errors."""
+    scene = am.Scene()
+    two = am.materials.Blend(am.materials.Diffuse((1.0, 0.0, 0.5)), am.materials.Diffuse((0.0, 1.0, 0.5)), 0.25)
+    scene.add_mesh([[-9, 0, -9], [9, 0, -9], [9, 0, 9.0], [-9, 0, 9]], [[0, 2, 1], [0, 3, 2]], material=two)
+    scene.add_light(am.lights.Environment(1.0))
+    image = scene.render(eye=(0, 2, 0.1), look_at=(0, 0, 0), size=(16, 12), viewing_rays=64, bounces=1)
+    mean, error = image.pixels.mean((0, 1)), np.sqrt((image.standard_error**2).mean((0, 1)) / (16 * 12))
+    assert np.all(np.abs(mean - [0.75, 0.25, 0.5]) <= 5 * error + 1e-5)
+    with pytest.raises(ValueError, match="weight"):
+        am.materials.Blend(am.materials.Diffuse(), am.materials.Mirror(), 2.0)

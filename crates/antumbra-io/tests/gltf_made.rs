@@ -224,7 +224,7 @@ fn glass_and_normal_maps() {
     made.floats("VEC4", 4, &[1.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 1.0]);
     let attributes = r#"{"POSITION":0,"NORMAL":1,"TEXCOORD_0":2,"TANGENT":3}"#;
     let primitives: Vec<_> =
-        (0..4).map(|m| format!(r#"{{"attributes":{attributes},"material":{m}}}"#)).collect();
+        (0..5).map(|m| format!(r#"{{"attributes":{attributes},"material":{m}}}"#)).collect();
     let glass = r#""KHR_materials_transmission":{"transmissionFactor":1}"#;
     let smooth = r#""pbrMetallicRoughness":{"metallicFactor":0,"roughnessFactor":0}"#;
     let s = made
@@ -237,7 +237,9 @@ fn glass_and_normal_maps() {
                 {{{smooth},"extensions":{{{glass},"KHR_materials_volume":{{"thicknessFactor":1}}}}}},
                 {{"pbrMetallicRoughness":{{"metallicFactor":0,"roughnessFactor":0.5,"baseColorFactor":[1,0.5,0,1]}},
                   "extensions":{{{glass},"KHR_materials_volume":{{"thicknessFactor":1}},
-                  "KHR_materials_ior":{{"ior":2}}}}}}]"#,
+                  "KHR_materials_ior":{{"ior":2}}}}}},
+                {{{smooth},"extensions":{{"KHR_materials_transmission":
+                  {{"transmissionFactor":0.25,"transmissionTexture":{{"index":0}}}}}}}}]"#,
             primitives.join(",")
         ))
         .unwrap();
@@ -248,6 +250,10 @@ fn glass_and_normal_maps() {
     assert!(matches!(s.materials[2].surface, Surface::Dielectric(_)));
     let Surface::RoughDielectric(ground) = s.materials[3].surface else { panic!() };
     assert_eq!(ground.transmittance.0, [1.0, 0.5, 0.0]);
+    let Surface::Blend { first, second, weight } = s.materials[6].surface else { panic!() };
+    assert!((first, second, weight) == (4, 5, 0.25) && s.materials[6].blend.is_some());
+    assert!(matches!(s.materials[4].surface, Surface::MetallicRoughness { .. }));
+    assert!(matches!(s.materials[5].surface, Surface::ThinDielectric(_)));
 }
 
 /// A white PNG of one pixel.

@@ -92,6 +92,10 @@ pub fn material(kind: &str, fields: &Fields, emission: Option<[f32; 3]>) -> PyRe
             let nonlinear = fields.number("nonlinear")? != 0.0;
             Material::plastic(fields.rgb("albedo")?, fields.number("ior")?, fields.facets()?, nonlinear)
         }
+        "Blend" => {
+            let id = |name| Ok::<_, PyErr>(fields.numbers(name, 1)?[0] as u32);
+            Material::blend(id("first")?, id("second")?, fields.number("weight")?)
+        }
         "ThinDielectric" => Material::thin_dielectric(fields.number("ior")?),
         _ => return unknown("material", kind),
     };

@@ -12,7 +12,7 @@ use crate::film::{Film, Planes};
 use crate::light::sampler::Scratch as LightWeights;
 use crate::receiver::Receiver;
 use crate::sampler::{AnySampler, PassPlan};
-use crate::scene::{Look, Scene};
+use crate::scene::{Look, Ray, Scene};
 use crate::sensor::{Looking, Scratch, Sensor, Tile};
 
 /// What is to be computed.
@@ -236,7 +236,8 @@ fn follow(job: &Job<'_>, receivers: &[Receiver], film: &mut Film, b: &mut Buffer
         if b.hits.prim[i] == NO_PRIM {
             continue;
         }
-        let met = job.scene.meet(o, wi, b.hits.t[i], b.hits.prim[i], b.hits.uv[i], &job.look);
+        let (t, prim, uv, number) = (b.hits.t[i], b.hits.prim[i], b.hits.uv[i], rays.number[i]);
+        let met = job.scene.meet(&Ray { o, d: wi, t, prim, uv, number }, &job.look);
         if let (Some((light, radiance)), true) = (met.emitted, job.shadows) {
             find(light, radiance);
         }

@@ -10,7 +10,7 @@ use crate::light::sampler::{Choose, LightSampler, Scratch};
 use crate::light::{End, LightId, LightPoints, LightSample};
 use crate::receiver::Receiver;
 use crate::sampler::Use;
-use crate::scene::{Placed, Scene};
+use crate::scene::{Placed, Scene, blended};
 
 /// Which lights a receiver asks (`--lights`).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -224,7 +224,9 @@ pub fn balance(mine: f32, other: f32) -> f32 {
 
 /// What light sampling cannot see of a scene, for the estimator `name`.
 pub(super) fn blind_to_single_directions(scene: &Scene, name: &str) -> Vec<String> {
-    let single = |o: &Placed| scene.materials[o.material as usize].surface.has_single_directions();
+    let materials = &scene.materials;
+    let of = |id: &u32| materials[*id as usize].surface.has_single_directions();
+    let single = |o: &Placed| blended(materials, o.material).iter().any(of);
     let text = || {
         format!("estimator {name} does not see lights in mirrors or through clear glass (mis and path do)")
     };

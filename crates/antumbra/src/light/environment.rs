@@ -88,7 +88,7 @@ fn arrive(wi: World, radiance: Rgb, pdf: f32) -> Option<LightSample> {
 }
 
 impl LightKind for Environment {
-    /// Solid angle: a picture by its importance; one radiance by cos θ / π about the receiver's geometric normal. Area:
+    /// Solid angle: a picture by its luminance, its sun by what it gives this receiver; one radiance by cos θ / π about the receiver's geometric normal. Area:
     /// there is none, so uniform over the hemisphere of that normal, 1/(2π).
     #[inline]
     fn sample(&self, at: &Receiver, u: [f32; 2], how: LightPoints) -> Option<LightSample> {
@@ -103,7 +103,7 @@ impl LightKind for Environment {
                 arrive(wi, self.radiance, self.pdf(at, wi, how))
             }
             (Some(picture), _) => {
-                let drawn = picture.sample(u)?;
+                let drawn = picture.sample(u, self.frame.to_local(at.ng).0)?;
                 let wi = self.frame.to_world(antumbra_math::Local(drawn.wi)).normalize();
                 arrive(wi, self.radiance * drawn.radiance, drawn.pdf)
             }
@@ -122,7 +122,7 @@ impl LightKind for Environment {
                 }
             }
             (None, _) => cos.max(0.0) * real::INV_PI,
-            (Some(picture), _) => picture.pdf(self.frame.to_local(wi).0),
+            (Some(picture), _) => picture.pdf(self.frame.to_local(wi).0, self.frame.to_local(at.ng).0),
         }
     }
 
@@ -135,7 +135,7 @@ impl LightKind for Environment {
         Rgb::BLACK
     }
 
-    /// π L_e, or the picture's harmonics.
+    /// π L_e, or the picture's sun and the harmonics of the rest.
     fn irradiance(&self, at: &Receiver) -> f32 {
         let light = self.radiance.luminance();
         match &self.picture {
@@ -186,9 +186,11 @@ impl LightKind for Environment {
         let hot = picture(16, 8, |x, y| if (x, y) == (3, 2) { 1000.0 } else { 0.0 });
         let dot = picture(1, 1, |_, _| 2.0);
         let black = picture(4, 2, |_, _| 0.0);
+        let pole = picture(16, 8, |x, y| if (x, y) == (5, 0) { 20.0 } else { 1.0 });
+        let sunny = picture(64, 32, |x, y| if (x, y) == (63, 9) { 2000.0 } else { 1.0 + (x % 5) as f32 });
         let constant = Environment::constant(Rgb::new(1.0, 0.8, 0.6));
         let turned = clouds.clone().map(|e| e.rotated(0.7).scaled(Rgb::new(1.0, 2.0, 3.0)));
         let patch = hot.clone().map(|e| e.nearest(true));
-        [Some(constant), clouds, turned, hot, patch, dot, black].into_iter().flatten().collect()
+        [Some(constant), clouds, turned, hot, patch, dot, black, pole, sunny].into_iter().flatten().collect()
     }
 }

@@ -2,10 +2,11 @@
 
 use std::ops::Range;
 
+use antumbra_math::hash;
 use antumbra_trace::{Bits, Hits, NO_PRIM, PrimId, SegmentBuffer, Visibility};
 
 use super::order::Order;
-use crate::scene::{Look, Met, Scene};
+use crate::scene::{Look, Met, Ray, Scene};
 use crate::schedule::{self, Flow};
 
 /// Rays of a chunk: enough for the batch calls, small enough for the cache.
@@ -96,7 +97,9 @@ impl RayHit {
 
     /// The surface there, ready to ask for light; `None` for a miss.
     pub fn met(&self, scene: &Scene) -> Option<Met> {
-        let meet = || scene.meet(self.o.into(), self.d.into(), self.t, self.prim, self.uv, &Look::default());
-        (self.prim != NO_PRIM).then(meet)
+        let RayHit { t, prim, uv, .. } = *self;
+        let number = self.o.iter().chain(&self.d).fold(0, |h, x| hash::hash2(h, x.to_bits()));
+        let ray = Ray { o: self.o.into(), d: self.d.into(), t, prim, uv, number };
+        (prim != NO_PRIM).then(|| scene.meet(&ray, &Look::default()))
     }
 }

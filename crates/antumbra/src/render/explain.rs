@@ -11,7 +11,7 @@ use crate::film::{Film, Planes};
 use crate::light::sampler::Scratch as LightWeights;
 use crate::light::{End, Light, LightId};
 use crate::receiver::Receiver;
-use crate::scene::{Message, Scene, SceneError, SceneVisibility};
+use crate::scene::{Message, Ray, Scene, SceneError, SceneVisibility};
 use crate::schedule::Flow;
 use crate::sensor::{CameraSensor, Looking, Scratch, Seen, Sensor, Tile, View};
 use crate::settings::{Masks, SettingValue, Settings};
@@ -260,8 +260,9 @@ impl Pixel<'_> {
             let wi = World::from(rays.end_at(i));
             let prim = hits.prim[i];
             let met = (prim != NO_PRIM).then(|| {
-                let look = self.settings.look();
-                self.scene.meet(rays.origin_at(i).into(), wi, hits.t[i], prim, hits.uv[i], &look)
+                let (o, t, uv) = (rays.origin_at(i).into(), hits.t[i], hits.uv[i]);
+                let ray = Ray { o, d: wi, t, prim, uv, number: rays.number[i] };
+                self.scene.meet(&ray, &self.settings.look())
             });
             let found: Vec<(LightId, Rgb)> = match &met {
                 _ if !self.settings.shadows => self.scene.from_everywhere(at.p, wi).collect(),

@@ -6,7 +6,9 @@ use antumbra_math::{Transform, Vec3};
 use antumbra_trace::{Pool, Shape, Triangles};
 
 use super::parts::Parts;
-use super::{Body, Level, Material, Mesh, Message, Object, Scene, SceneBuilder, SceneError, Tangents};
+use super::{
+    Body, Level, Material, Mesh, Message, Object, Scene, SceneBuilder, SceneError, Surface, Tangents, blended,
+};
 use crate::texture::Texture;
 
 impl SceneBuilder {
@@ -50,11 +52,17 @@ impl SceneBuilder {
             }
             let m = &self.materials[i];
             let normal = m.normal.map(|map| map.texture);
-            for texture in [m.color, m.metallic_roughness, normal].into_iter().flatten() {
+            for texture in [m.color, m.metallic_roughness, m.blend, normal].into_iter().flatten() {
                 if texture as usize >= self.textures.len() {
                     let what = format!("asks for texture {texture} of {}", self.textures.len());
                     return Err(SceneError::new(material_place(i, m), what, ""));
                 }
+            }
+            if let Surface::Blend { first, second, .. } = m.surface
+                && first.max(second) as usize >= i
+            {
+                let what = "blends a material that does not stand before it";
+                return Err(SceneError::new(material_place(i, m), what, ""));
             }
             if let Some(what) = m.surface.fault() {
                 return Err(SceneError::new(material_place(i, m), what, ""));
@@ -161,9 +169,11 @@ impl SceneBuilder {
         let bare: Vec<bool> = self.meshes.iter().map(|mesh| mesh.tangents.is_none()).collect();
         for object in &mut self.objects {
             let Body::Mesh(m) = object.body else { continue };
-            let material = &self.materials[object.material as usize];
-            let map = material.normal.map(|map| &self.textures[map.texture as usize]);
-            if !bare[m as usize] || (map.is_none() && !material.surface.is_stretched()) {
+            let looks = || {
+                blended(&self.materials, object.material).into_iter().map(|id| &self.materials[id as usize])
+            };
+            let map = looks().find_map(|look| look.normal).map(|map| &self.textures[map.texture as usize]);
+            if !bare[m as usize] || (map.is_none() && !looks().any(|look| look.surface.is_stretched())) {
                 continue;
             }
             // A map that turns v round (OBJ) makes it grow upwards on the mesh.

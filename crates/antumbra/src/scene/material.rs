@@ -65,6 +65,16 @@ pub enum Surface {
         /// The clear coat over it.
         coat: RoughCoat,
     },
+    /// One of two materials that stand before it in the scene, drawn by a hash of (ray number, primitive), so that light
+    /// is reflected as by (1 − weight) f₁ + weight f₂. Their emission and alpha do not count: its own do.
+    Blend {
+        /// The material of weight 0.
+        first: MaterialId,
+        /// The material of weight 1.
+        second: MaterialId,
+        /// Share of the second, times the red of the blend texture.
+        weight: f32,
+    },
 }
 
 impl Surface {
@@ -81,7 +91,8 @@ impl Surface {
             Surface::Diffuse { .. }
             | Surface::Unlit { .. }
             | Surface::MetallicRoughness { .. }
-            | Surface::RoughPlastic { .. } => false,
+            | Surface::RoughPlastic { .. }
+            | Surface::Blend { .. } => false,
         }
     }
 
@@ -97,25 +108,28 @@ impl Surface {
 
     /// Gives it a colour: its albedo, reflectance, or what it lets through.
     pub fn tint(&mut self, by: Rgb) {
-        let color = self.colors().0;
-        *color = by;
+        if let Some(color) = self.colors().next() {
+            *color = by;
+        }
     }
 
     /// The colour that textures multiply, and a second one.
-    fn colors(&mut self) -> (&mut Rgb, Option<&mut Rgb>) {
-        match self {
+    fn colors(&mut self) -> impl Iterator<Item = &mut Rgb> {
+        let (first, second) = match self {
             Surface::Diffuse { albedo }
             | Surface::Unlit { color: albedo }
             | Surface::Plastic { albedo, .. }
-            | Surface::RoughPlastic { albedo, .. } => (albedo, None),
-            Surface::Mirror { reflectance } => (reflectance, None),
-            Surface::MetallicRoughness { base, .. } => (base, None),
-            Surface::Conductor(c) => (&mut c.reflectance, None),
-            Surface::RoughConductor(c) => (&mut c.reflectance, None),
-            Surface::Dielectric(d) => (&mut d.transmittance, Some(&mut d.reflectance)),
-            Surface::ThinDielectric(d) => (&mut d.transmittance, Some(&mut d.reflectance)),
-            Surface::RoughDielectric(d) => (&mut d.transmittance, Some(&mut d.reflectance)),
-        }
+            | Surface::RoughPlastic { albedo, .. } => (Some(albedo), None),
+            Surface::Mirror { reflectance } => (Some(reflectance), None),
+            Surface::MetallicRoughness { base, .. } => (Some(base), None),
+            Surface::Conductor(c) => (Some(&mut c.reflectance), None),
+            Surface::RoughConductor(c) => (Some(&mut c.reflectance), None),
+            Surface::Dielectric(d) => (Some(&mut d.transmittance), Some(&mut d.reflectance)),
+            Surface::ThinDielectric(d) => (Some(&mut d.transmittance), Some(&mut d.reflectance)),
+            Surface::RoughDielectric(d) => (Some(&mut d.transmittance), Some(&mut d.reflectance)),
+            Surface::Blend { .. } => (None, None),
+        };
+        first.into_iter().chain(second)
     }
 
     /// The metal that it is made of.
@@ -181,6 +195,8 @@ pub struct Material {
     pub color: Option<TextureId>,
     /// Texture of metallic (blue) and roughness (green).
     pub metallic_roughness: Option<TextureId>,
+    /// Texture of a blend's weight, plain numbers.
+    pub blend: Option<TextureId>,
     /// Bends the shading normal.
     pub normal: Option<NormalMap>,
     /// Light given off.
@@ -240,6 +256,11 @@ impl Material {
         })
     }
 
+    /// Two materials of the scene in one: (1 − weight) of the first, weight of the second.
+    pub fn blend(first: MaterialId, second: MaterialId, weight: f32) -> Material {
+        Material::of(Surface::Blend { first, second, weight })
+    }
+
     /// A black surface that emits from its front.
     pub fn light(radiance: Rgb) -> Material {
         let emission = Some(Emission { radiance, both_sides: false });
@@ -252,9 +273,10 @@ impl Material {
         if let Surface::MetallicRoughness { metallic, roughness, f0, .. } = &mut self.surface {
             any |= tame(metallic) | tame(roughness) | tame(f0);
         }
-        let (first, second) = self.surface.colors();
-        let colors = std::iter::once(first).chain(second);
-        colors.flat_map(|color| &mut color.0).for_each(|c| any |= tame(c));
+        if let Surface::Blend { weight, .. } = &mut self.surface {
+            any |= tame(weight);
+        }
+        self.surface.colors().flat_map(|color| &mut color.0).for_each(|c| any |= tame(c));
         any
     }
 
@@ -269,12 +291,23 @@ impl Material {
             surface,
             color: None,
             metallic_roughness: None,
+            blend: None,
             normal: None,
             emission: None,
             alpha: Alpha::Opaque,
             one_sided: false,
             opacity: 1.0,
         }
+    }
+}
+
+/// The material `id`, or those that it blends, each once or more.
+pub fn blended(materials: &[Material], id: MaterialId) -> Vec<MaterialId> {
+    match materials[id as usize].surface {
+        Surface::Blend { first, second, .. } => {
+            [blended(materials, first), blended(materials, second)].concat()
+        }
+        _ => vec![id],
     }
 }
 

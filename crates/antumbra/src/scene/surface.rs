@@ -1,12 +1,18 @@
 //! What a ray met: the point, its normals, its reflection and its emission there.
 
-use antumbra_math::{DVec3, Frame, Rgb, Vec3, World};
+use antumbra_math::{DVec3, Frame, Rgb, Vec3, World, hash};
 use antumbra_trace::{NO_PRIM, PrimId, Shape, start};
 
-use super::{Body, Placed, Scene, SceneMesh, Surface, Tangents, TextureId};
+use super::{Body, Material, NormalMap, Placed, Scene, SceneMesh, Surface, Tangents, TextureId};
 use crate::bsdf::{Bsdf, Diffuse, MetallicRoughness, Mirror, Plastic, RoughPlastic};
 use crate::light::LightId;
 use crate::receiver::Receiver;
+
+/// Tells the numbers of blends in blends apart.
+const BLENDED: u32 = 0x2c1b_3c6d;
+
+/// An object, which of its triangles, and where on it.
+type At<'a> = (&'a Placed, u32, [f32; 2]);
 
 /// Where segments start. `Safe` is right; the others show why.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -27,6 +33,23 @@ pub struct Look {
     pub clay: Option<f32>,
     /// Where segments start.
     pub start: Start,
+}
+
+/// A ray and where it met a primitive.
+#[derive(Clone, Copy, Debug)]
+pub struct Ray {
+    /// Where it starts.
+    pub o: Vec3,
+    /// Where it goes, of any length.
+    pub d: Vec3,
+    /// Where it met the primitive, in lengths of `d`.
+    pub t: f64,
+    /// The primitive.
+    pub prim: PrimId,
+    /// Weights of its second and third corner.
+    pub uv: [f32; 2],
+    /// The number of the ray, which draws among blended materials.
+    pub number: u32,
 }
 
 /// A surface that a ray met.
@@ -50,18 +73,20 @@ pub(super) struct Place {
 }
 
 impl Scene {
-    /// The surface at `prim`, met by the ray from `o` along `d` (any length) at parameter `t` and weights `uv`.
-    pub fn meet(&self, o: Vec3, d: Vec3, t: f64, prim: PrimId, uv: [f32; 2], look: &Look) -> Met {
+    /// The surface where `ray` met it.
+    pub fn meet(&self, ray: &Ray, look: &Look) -> Met {
+        let Ray { o, d, t, prim, uv, number } = *ray;
         let (object, local) = self.locate(prim);
+        let material = self.material_at(object, local, uv, hash::hash2(number, prim));
         let place = self.place(object, local, o.as_dvec3() + d.as_dvec3() * t, uv);
         let front = place.outward.dot(d.as_dvec3()) < 0.0;
         let toward = if front { place.outward } else { -place.outward };
         let (start, first) = place.start(toward, prim, look.start);
         let wo = -d.normalize();
+        let normal = material.normal.filter(|_| look.clay.is_none());
         let ng = toward.as_vec3();
-        let frame =
-            self.shading_frame(object, local, uv, &Seen { ng, front, wo, mapped: look.clay.is_none() });
-        let bsdf = self.bsdf(object, local, uv, front, look);
+        let frame = self.shading_frame(object, local, uv, &Seen { ng, front, wo, normal });
+        let bsdf = self.bsdf(material, (object, local, uv), front, look);
         let beyond = match bsdf.index_below() {
             None => start,
             Some(_) => place.start(-toward, prim, look.start).0,
@@ -83,7 +108,7 @@ impl Scene {
         };
         let light = self.light_of(object, local);
         let emitted = light.map(|id| (id, self.lights()[id as usize].emitted(-wo, front)));
-        let shown = self.shown(object, local, uv, look);
+        let shown = self.shown(material, (object, local, uv), look);
         Met { receiver, emitted: emitted.filter(|(_, l)| !l.is_black()), shown }
     }
 
@@ -96,7 +121,7 @@ impl Scene {
 
     /// The frame about the interpolated normal, bent by the normal map, on the viewer's side of both surface and normal.
     fn shading_frame(&self, object: &Placed, local: u32, uv: [f32; 2], seen: &Seen) -> Frame {
-        let Seen { ng, front, wo, mapped } = *seen;
+        let Seen { ng, front, wo, normal } = *seen;
         let Body::Mesh(mesh) = object.body else { return Frame::about(ng) };
         let mesh = &self.meshes[mesh as usize];
         let outside = if front { ng } else { -ng };
@@ -107,8 +132,7 @@ impl Scene {
         };
         let Some(tangents) = &mesh.tangents else { return visible_frame(if front { n } else { -n }, ng, wo) };
         let [t, b] = tangent_plane(mesh, tangents, object, local, uv, n);
-        let material = &self.materials[object.material as usize];
-        let bent = material.normal.filter(|_| mapped).map(|map| {
+        let bent = normal.map(|map| {
             let texture = &self.textures[map.texture as usize];
             let [x, y, z, _] = texture.at(mesh.uv_at(texture.uv_set, local, uv)).map(|c| 2.0 * c - 1.0);
             (t * (map.scale * x) + b * (map.scale * y) + n * z).normalize_or_zero()
@@ -119,40 +143,53 @@ impl Scene {
     }
 
     /// The reflection of a surface with its textures looked up.
-    fn bsdf(&self, object: &Placed, local: u32, uv: [f32; 2], front: bool, look: &Look) -> Bsdf {
+    fn bsdf(&self, material: &Material, at: At<'_>, front: bool, look: &Look) -> Bsdf {
         if let Some(rho) = look.clay {
             return Bsdf::Diffuse(Diffuse { albedo: Rgb::grey(rho) });
         }
-        let material = &self.materials[object.material as usize];
         if material.one_sided && !front {
             return Bsdf::Diffuse(Diffuse { albedo: Rgb::BLACK });
         }
-        let metal_rough = || self.texel(object, material.metallic_roughness, local, uv).unwrap_or([1.0; 4]);
-        reflection(&material.surface, front, |c| self.tinted(c, object, local, uv), metal_rough)
+        let metal_rough = || self.texel(at, material.metallic_roughness).unwrap_or([1.0; 4]);
+        reflection(&material.surface, front, |c| self.tinted(c, material, at), metal_rough)
+    }
+
+    /// The look of an object at a point: of a blend, the one that `number` draws.
+    fn material_at(&self, object: &Placed, local: u32, uv: [f32; 2], number: u32) -> &Material {
+        let mut material = &self.materials[object.material as usize];
+        // Not the number that alpha took.
+        let mut number = hash::hash2(number, BLENDED);
+        while let Surface::Blend { first, second, weight } = material.surface {
+            let [red, ..] = self.texel((object, local, uv), material.blend).unwrap_or([1.0; 4]);
+            let second_wins = hash::unit_f32(number) < weight * red;
+            material = &self.materials[if second_wins { second } else { first } as usize];
+            number = hash::hash2(number, BLENDED);
+        }
+        material
     }
 
     /// A texture at a point of a mesh.
-    fn texel(&self, object: &Placed, id: Option<TextureId>, local: u32, uv: [f32; 2]) -> Option<[f32; 4]> {
+    fn texel(&self, (object, local, uv): At<'_>, id: Option<TextureId>) -> Option<[f32; 4]> {
         let Body::Mesh(mesh) = object.body else { return None };
         let texture = &self.textures[id? as usize];
         Some(texture.at(self.meshes[mesh as usize].uv_at(texture.uv_set, local, uv)))
     }
 
     /// A colour times the material's texture and the vertex colours.
-    fn tinted(&self, c: Rgb, object: &Placed, local: u32, uv: [f32; 2]) -> Rgb {
-        let material = &self.materials[object.material as usize];
+    fn tinted(&self, c: Rgb, material: &Material, at: At<'_>) -> Rgb {
+        let (object, local, uv) = at;
         let white = |c: Option<[f32; 4]>| c.map_or(Rgb::WHITE, |c| Rgb([c[0], c[1], c[2]]));
         let vertex = match object.body {
             Body::Mesh(m) => self.meshes[m as usize].color_at(local, uv),
             Body::Shape(_) => None,
         };
-        c * white(self.texel(object, material.color, local, uv)) * white(vertex)
+        c * white(self.texel(at, material.color)) * white(vertex)
     }
 
     /// What an unlit surface shows to the sensor.
-    fn shown(&self, object: &Placed, local: u32, uv: [f32; 2], look: &Look) -> Rgb {
-        match self.materials[object.material as usize].surface {
-            Surface::Unlit { color } if look.clay.is_none() => self.tinted(color, object, local, uv),
+    fn shown(&self, material: &Material, at: At<'_>, look: &Look) -> Rgb {
+        match material.surface {
+            Surface::Unlit { color } if look.clay.is_none() => self.tinted(color, material, at),
             _ => Rgb::BLACK,
         }
     }
@@ -163,8 +200,8 @@ struct Seen {
     ng: Vec3,
     front: bool,
     wo: World,
-    /// Normal maps count.
-    mapped: bool,
+    /// What bends the normal.
+    normal: Option<NormalMap>,
 }
 
 /// Normals stand at the corners in world space, of length 1, before they are interpolated: copies and instances of a
@@ -234,8 +271,8 @@ fn reflection(
     match *surface {
         Surface::Diffuse { albedo } => Bsdf::Diffuse(Diffuse { albedo: tint(albedo) }),
         Surface::Mirror { reflectance } => Bsdf::Mirror(Mirror { reflectance: tint(reflectance) }),
-        // Its colour is shown by `shown`.
-        Surface::Unlit { .. } => Bsdf::Diffuse(Diffuse { albedo: Rgb::BLACK }),
+        // An unlit one's colour is shown by `shown`; of a blend, `material_at` has drawn one.
+        Surface::Unlit { .. } | Surface::Blend { .. } => Bsdf::Diffuse(Diffuse { albedo: Rgb::BLACK }),
         Surface::MetallicRoughness { base, metallic, roughness, f0 } => {
             let [_, green, blue, _] = metal_rough();
             let (metallic, roughness) = (metallic * blue, roughness * green);

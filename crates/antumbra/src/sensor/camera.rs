@@ -7,7 +7,7 @@ use super::{Looking, Scratch, Seen, Sensor, Tile, grid};
 use crate::film::{Film, Planes};
 use crate::receiver::Receiver;
 use crate::sampler::{Use, stream};
-use crate::scene::{Camera, Projection};
+use crate::scene::{Camera, Projection, Ray};
 
 /// Sides of a tile: enough rays for a batch, small enough to keep all cores busy.
 const TILE: [u32; 2] = [32, 32];
@@ -144,7 +144,8 @@ impl Sensor for CameraSensor {
                 note_sky(film, looking, cell, d);
                 continue;
             }
-            let met = looking.scene.meet(o, d, hits.t[i], hits.prim[i], hits.uv[i], &looking.look);
+            let (t, prim, uv, number) = (hits.t[i], hits.prim[i], hits.uv[i], rays.number[i]);
+            let met = looking.scene.meet(&Ray { o, d, t, prim, uv, number }, &looking.look);
             if let (Some((_, radiance)), Seen::Light) = (met.emitted, looking.seen) {
                 note_light(film, cell, radiance);
             }

@@ -7,6 +7,7 @@
 mod agree;
 mod batches;
 mod bits;
+mod blends;
 mod closed;
 mod closed_ao;
 mod coverage;

@@ -4,7 +4,7 @@
 use std::collections::HashMap;
 
 use antumbra::bsdf::Facets;
-use antumbra::scene::{Alpha, Emission, Material, MaterialId, NormalMap, Surface};
+use antumbra::scene::{Alpha, Emission, Material, MaterialId, NormalMap, Surface, TextureId};
 use antumbra_math::Rgb;
 use serde::Deserialize;
 
@@ -91,10 +91,7 @@ impl Reader<'_> {
             "BLEND" => Alpha::Blend,
             _ => Alpha::Opaque,
         };
-        let normal = m.normal_texture.as_ref().and_then(|info| {
-            let texture = self.texture(info, false)?;
-            Some(NormalMap { texture, scale: info.scale.filter(|s| s.is_finite()).unwrap_or(1.0) })
-        });
+        let normal = self.normal_map(m);
         Material { name: m.name.clone(), emission: self.emission(m, &place), alpha, normal, ..base }
     }
 
@@ -105,13 +102,42 @@ impl Reader<'_> {
         let color = pbr.base_color_texture.as_ref().and_then(|t| self.texture(t, true));
         let mr = pbr.metallic_roughness_texture.as_ref().and_then(|t| self.texture(t, false));
         let ior = index_of_refraction(m);
-        let surface = self.glass(m, ior, place).unwrap_or(Surface::MetallicRoughness {
+        let surface = Surface::MetallicRoughness {
             base,
             metallic: pbr.metallic_factor,
             roughness: pbr.roughness_factor,
             f0: ((ior - 1.0) / (ior + 1.0)) * ((ior - 1.0) / (ior + 1.0)),
-        });
-        Material { surface, color, metallic_roughness: mr, opacity: a, ..Material::diffuse(base) }
+        };
+        let normal = self.normal_map(m);
+        let opaque = Material {
+            surface,
+            color,
+            normal,
+            metallic_roughness: mr,
+            opacity: a,
+            ..Material::diffuse(base)
+        };
+        let Some((share, through)) = self.through(m, place) else { return opaque };
+        let glass = Material {
+            surface: self.glass(m, ior, place),
+            color,
+            normal,
+            opacity: a,
+            ..Material::diffuse(base)
+        };
+        if share >= 1.0 && through.is_none() {
+            return glass;
+        }
+        let name = |part: &str| format!("{} ({part})", m.name);
+        let (first, second) = (opaque.named(name("opaque")), glass.named(name("glass")));
+        let (first, second) = (self.scene.material(first), self.scene.material(second));
+        Material { blend: through, color, normal, opacity: a, ..Material::blend(first, second, share) }
+    }
+
+    fn normal_map(&mut self, m: &GltfMaterial) -> Option<NormalMap> {
+        let info = m.normal_texture.as_ref()?;
+        let texture = self.texture(info, false)?;
+        Some(NormalMap { texture, scale: info.scale.filter(|s| s.is_finite()).unwrap_or(1.0) })
     }
 
     /// KHR_materials_unlit: the base colour as it is.
@@ -123,22 +149,23 @@ impl Reader<'_> {
         Material { surface, color, opacity: a, ..Material::diffuse(Rgb::BLACK) }
     }
 
-    /// KHR_materials_transmission: glass where more than half of the light goes through; a body if it has a volume, else a
-    /// pane.
-    fn glass(&mut self, m: &GltfMaterial, ior: f32, place: &str) -> Option<Surface> {
+    /// KHR_materials_transmission: the share of the light under the gloss that goes through instead of back, and its
+    /// texture. Metal lets none through.
+    fn through(&mut self, m: &GltfMaterial, place: &str) -> Option<(f32, Option<TextureId>)> {
         let Ok(through) = Transmission::deserialize(m.extensions.get("KHR_materials_transmission")?) else {
             self.said.warn(place, "KHR_materials_transmission is broken: drawn opaque");
             return None;
         };
-        let mean = through.transmission_texture.and_then(|info| self.image_of(&info, false));
-        let share = through.transmission_factor * mean.map_or(1.0, |image| image.mean().0[0]);
         let pbr = &m.pbr_metallic_roughness;
-        if share < 0.5 || pbr.metallic_factor >= 0.5 && pbr.metallic_roughness_texture.is_none() {
-            if share > 0.0 {
-                self.said.warn(place, "lets a part of the light through: drawn opaque");
-            }
-            return None;
-        }
+        let metal = if pbr.metallic_roughness_texture.is_none() { pbr.metallic_factor } else { 0.0 };
+        let share = (through.transmission_factor * (1.0 - metal)).clamp(0.0, 1.0);
+        let texture = through.transmission_texture.and_then(|info| self.texture(&info, false));
+        (share > 0.0).then_some((share, texture))
+    }
+
+    /// The glass of KHR_materials_transmission: a body if it has a volume, else a pane.
+    fn glass(&mut self, m: &GltfMaterial, ior: f32, place: &str) -> Surface {
+        let pbr = &m.pbr_metallic_roughness;
         let volume = m.extensions.get("KHR_materials_volume");
         let thickness = volume.and_then(|v| v.get("thicknessFactor")?.as_f64()).unwrap_or(0.0);
         let roughness = pbr.roughness_factor;
@@ -153,7 +180,7 @@ impl Reader<'_> {
             Material::thin_dielectric(ior).surface
         };
         surface.tint(Rgb::new(r, g, b));
-        Some(surface)
+        surface
     }
 
     fn diffuse_part(&mut self, glossy: &SpecularGlossiness) -> Material {

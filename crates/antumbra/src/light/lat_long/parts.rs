@@ -1,0 +1,150 @@
+//! A picture of the sky in parts, chosen among by what each gives a receiver: its sun, and 8 × 4 tiles of equal area of
+//! the rest.
+
+use antumbra_math::{World, real};
+
+use super::super::steps;
+use super::cells::{Cells, Grid, Window};
+
+/// Tiles around, and from pole to pole.
+const AROUND: u32 = 8;
+const BANDS: u32 = 4;
+/// The most parts: every tile, and a sun.
+pub const MOST: usize = (AROUND * BANDS) as usize + 1;
+
+/// A part of the picture that is drawn from by its own table.
+pub struct Part {
+    pub cells: Cells,
+    /// ∫ of its luminance.
+    flux: f32,
+    /// Where most of its light comes from, and cosine and sine of an angle about it that holds the part.
+    middle: World,
+    reach: [f32; 2],
+}
+
+impl Part {
+    /// Over a window of cells; `None` if it is black.
+    pub fn new(grid: &Grid, window: Window, light: impl Fn(u32, u32) -> f32) -> Option<Part> {
+        let (cells, vector) = Cells::new(grid, window, light);
+        if cells.is_black() {
+            return None;
+        }
+        let [x, y, z, flux] = vector;
+        let unit = antumbra_math::DVec3::new(x, y, z).normalize_or(antumbra_math::DVec3::Y);
+        let middle = unit.as_vec3();
+        let lowest = grid.rim(window).map(|d| d.dot(unit)).fold(1.0, f64::min);
+        // A direction in f32 may be rounded out of its part.
+        let reach = real::acos(lowest.clamp(-1.0, 1.0)) + 1e-5;
+        let [cos, sin] =
+            if reach < std::f64::consts::PI { [real::cos(reach), real::sin(reach)] } else { [-1.0, 0.0] };
+        Some(Part { cells, flux: flux as f32, middle, reach: [cos as f32, sin as f32] })
+    }
+
+    /// About its irradiance on the side of the unit normal `n`: halfway between what it would give from its middle and from
+    /// its nearest point, and so above 0 wherever a piece of it is in sight.
+    #[inline]
+    pub fn irradiance(&self, n: World) -> f32 {
+        let cos = self.middle.dot(n);
+        let [reach_cos, reach_sin] = self.reach;
+        let nearest = if cos >= reach_cos {
+            1.0
+        } else {
+            cos * reach_cos + real::safe_sqrt(1.0 - cos * cos) * reach_sin
+        };
+        0.5 * self.flux * (nearest.max(0.0) + cos.max(0.0))
+    }
+}
+
+/// The tiles of a picture: windows of cells, and which a cell lies in.
+pub struct Tiles {
+    width: u32,
+    /// The band of each row of cells.
+    bands: Vec<u8>,
+    /// The part that each tile is; `u8::MAX`: black.
+    part_of: [u8; MOST - 1],
+}
+
+impl Tiles {
+    /// Cuts the picture into tiles and appends those that shine to `parts`.
+    pub fn new(grid: &Grid, light: impl Fn(u32, u32) -> f32, parts: &mut Vec<Part>) -> Tiles {
+        let rows = grid.whole().height;
+        let bands: Vec<u8> = (0..rows).map(|row| grid.band(row, BANDS)).collect();
+        let mut part_of = [u8::MAX; MOST - 1];
+        let mut y = 0;
+        for band in 0..BANDS {
+            let height = bands.iter().filter(|b| u32::from(**b) == band).count() as u32;
+            for column in 0..AROUND {
+                // The columns of a tile are those that `part` gives it.
+                let [x, end] = [column, column + 1].map(|c| (c * grid.width).div_ceil(AROUND));
+                let window = Window { x, y, width: end - x, height };
+                if window.width > 0
+                    && height > 0
+                    && let Some(part) = Part::new(grid, window, &light)
+                {
+                    part_of[(band * AROUND + column) as usize] = parts.len() as u8;
+                    parts.push(part);
+                }
+            }
+            y += height;
+        }
+        Tiles { width: grid.width, bands, part_of }
+    }
+
+    /// The part that a cell lies in.
+    #[inline]
+    pub fn part(&self, column: u32, row: u32) -> Option<usize> {
+        let across = u64::from(column) * u64::from(AROUND) / u64::from(self.width);
+        let tile = u32::from(self.bands[row as usize]) * AROUND + across as u32;
+        let part = self.part_of[tile as usize];
+        (part != u8::MAX).then_some(usize::from(part))
+    }
+}
+
+/// The chances of the parts for a receiver, as running numbers of steps.
+pub struct Chances {
+    ends: [u32; MOST],
+    count: usize,
+}
+
+impl Chances {
+    /// In proportion to what each gives about the normal `n`; no more than a step to each that gives anything is lost.
+    #[inline]
+    pub fn new(parts: &[Part], n: World) -> Chances {
+        let mut weights = [0.0f32; MOST];
+        let (mut sum, mut lit) = (0.0f64, 0u32);
+        for (weight, part) in weights.iter_mut().zip(parts) {
+            *weight = part.irradiance(n);
+            sum += f64::from(*weight);
+            lit += u32::from(*weight > 0.0);
+        }
+        let mut ends = [0; MOST];
+        if lit == 0 {
+            return Chances { ends, count: 0 };
+        }
+        let scale = f64::from(steps::STEPS - lit) / sum;
+        let (mut run, mut seen) = (0.0, 0);
+        for (end, weight) in ends.iter_mut().zip(&weights[..parts.len()]) {
+            run += f64::from(*weight);
+            seen += u32::from(*weight > 0.0);
+            *end = ((run * scale) as u32 + seen).min(steps::STEPS);
+        }
+        ends[parts.len() - 1] = steps::STEPS;
+        // Roundings of the sum may leave the last steps to a part without light: they go to the last that has some.
+        for k in (0..parts.len() - 1).rev().take_while(|k| weights[k + 1] <= 0.0) {
+            ends[k] = steps::STEPS;
+        }
+        Chances { ends, count: parts.len() }
+    }
+
+    /// Draws a part.
+    #[inline]
+    pub fn pick(&self, u: f32) -> Option<steps::Choice> {
+        steps::pick(&self.ends[..self.count], u)
+    }
+
+    /// The chance of a part.
+    #[inline]
+    pub fn of(&self, part: usize) -> f32 {
+        steps::prob(&self.ends[..self.count], part)
+    }
+}
