@@ -92,7 +92,9 @@ def test_what_the_verb_refuses(options, said, antumbra, tmp_path):
 def test_blends_of_materials():
     """Under an even sky a blend of two albedos shows their weighted mean; five standard errors."""
     scene = am.Scene()
-    two = am.materials.Blend(am.materials.Diffuse((1.0, 0.0, 0.5)), am.materials.Diffuse((0.0, 1.0, 0.5)), 0.25)
+    two = am.materials.Blend(
+        am.materials.Diffuse((1.0, 0.0, 0.5)), am.materials.Diffuse((0.0, 1.0, 0.5)), 0.25
+    )
     scene.add_mesh([[-9, 0, -9], [9, 0, -9], [9, 0, 9.0], [-9, 0, 9]], [[0, 2, 1], [0, 3, 2]], material=two)
     scene.add_light(am.lights.Environment(1.0))
     image = scene.render(eye=(0, 2, 0.1), look_at=(0, 0, 0), size=(16, 12), viewing_rays=64, bounces=1)

@@ -91,7 +91,7 @@ impl Reader<'_> {
             "BLEND" => Alpha::Blend,
             _ => Alpha::Opaque,
         };
-        let normal = self.normal_map(m);
+        let normal = base.normal.or_else(|| self.normal_map(m));
         Material { name: m.name.clone(), emission: self.emission(m, &place), alpha, normal, ..base }
     }
 
