@@ -237,23 +237,26 @@ fn follow(job: &Job<'_>, receivers: &[Receiver], film: &mut Film, b: &mut Buffer
             continue;
         }
         let (t, prim, uv, number) = (b.hits.t[i], b.hits.prim[i], b.hits.uv[i], rays.number[i]);
-        let met = job.scene.meet(&Ray { o, d: wi, t, prim, uv, number }, &job.look);
+        let ray = Ray { o, d: wi, t, prim, uv, number };
+        let Some(survival) = onward.goes_on else {
+            if job.shadows
+                && let Some((light, radiance)) = job.scene.emitted(&ray)
+            {
+                find(light, radiance);
+            }
+            continue;
+        };
+        let met = job.scene.meet(&ray, &job.look);
         if let (Some((light, radiance)), true) = (met.emitted, job.shadows) {
             find(light, radiance);
         }
-        if let Some(survival) = onward.goes_on {
-            b.next.push(Receiver {
-                cell: from.cell,
-                stream: if onward.branch == 0 {
-                    from.stream
-                } else {
-                    hash::hash2(from.stream, onward.branch)
-                },
-                index: from.index,
-                throughput: onward.throughput * survival,
-                bounce: from.bounce + 1,
-                ..met.receiver
-            });
-        }
+        b.next.push(Receiver {
+            cell: from.cell,
+            stream: if onward.branch == 0 { from.stream } else { hash::hash2(from.stream, onward.branch) },
+            index: from.index,
+            throughput: onward.throughput * survival,
+            bounce: from.bounce + 1,
+            ..met.receiver
+        });
     }
 }

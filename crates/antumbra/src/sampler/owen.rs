@@ -69,24 +69,32 @@ fn scramble(mut x: u32, key: u32) -> u32 {
 }
 
 /// The second coordinate of Sobol point `index`, bit-reversed.
+///
+/// Its direction numbers (primitive polynomial x + 1) are v_i = v_{i−1} ⊕ v_{i−1}/2: reversed, the powers (1 + X)^i over
+/// GF(2). So the sum over the bits of the index is its polynomial at 1 + X, by halves: (1 + X)^16 = 1 + X^16, and so on.
 #[inline]
 fn sobol_reversed(index: u32) -> u32 {
-    let mut x = 0;
-    let mut rest = index;
-    while rest != 0 {
-        x ^= PASCAL[rest.trailing_zeros() as usize];
-        rest &= rest - 1;
-    }
-    x
+    let mut x = index;
+    x ^= (x >> 16) & 0x0000_ffff;
+    x ^= (x >> 8) & 0x00ff_00ff;
+    x ^= (x >> 4) & 0x0f0f_0f0f;
+    x ^= (x >> 2) & 0x3333_3333;
+    x ^ ((x >> 1) & 0x5555_5555)
 }
 
-/// Bit-reversed direction numbers of the second dimension (primitive polynomial x + 1): v_i = v_{i−1} ⊕ v_{i−1}/2.
-static PASCAL: [u32; 32] = {
-    let mut v = [1u32; 32];
-    let mut i = 1;
-    while i < 32 {
-        v[i] = v[i - 1] ^ (v[i - 1] << 1);
-        i += 1;
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn halving_gives_the_sum_of_the_direction_numbers() {
+        let mut v = [1u32; 32];
+        for i in 1..32 {
+            v[i] = v[i - 1] ^ (v[i - 1] << 1);
+        }
+        for index in (0..1000).map(|i| hash::mix32(i)).chain([0, 1, u32::MAX]) {
+            let sum = (0..32).filter(|i| index >> i & 1 == 1).fold(0, |x, i| x ^ v[i]);
+            assert_eq!(sobol_reversed(index), sum, "{index:#x}");
+        }
     }
-    v
-};
+}

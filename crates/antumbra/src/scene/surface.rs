@@ -106,10 +106,27 @@ impl Scene {
             throughput: Rgb::WHITE,
             bounce: 0,
         };
-        let light = self.light_of(object, local);
-        let emitted = light.map(|id| (id, self.lights()[id as usize].emitted(-wo, front)));
-        let shown = self.shown(material, (object, local, uv), look);
-        Met { receiver, emitted: emitted.filter(|(_, l)| !l.is_black()), shown }
+        let emitted = self.light_of(object, local).and_then(|light| self.light_toward(light, wo, front));
+        Met { receiver, emitted, shown: self.shown(material, (object, local, uv), look) }
+    }
+
+    /// L_e of the surface toward the ray that met it, and the light it belongs to: what
+    /// [`Scene::meet`] says of it, without the rest.
+    #[inline]
+    pub fn emitted(&self, ray: &Ray) -> Option<(LightId, Rgb)> {
+        let Ray { o, d, t, prim, uv, .. } = *ray;
+        let (object, local) = self.locate(prim);
+        let light = self.light_of(object, local)?;
+        let place = self.place(object, local, o.as_dvec3() + d.as_dvec3() * t, uv);
+        let front = place.outward.dot(d.as_dvec3()) < 0.0;
+        self.light_toward(light, -d.normalize(), front)
+    }
+
+    /// L_e of a light's surface toward ω_o, unless it is black.
+    #[inline]
+    fn light_toward(&self, light: LightId, wo: World, front: bool) -> Option<(LightId, Rgb)> {
+        let radiance = self.lights()[light as usize].emitted(-wo, front);
+        (!radiance.is_black()).then_some((light, radiance))
     }
 
     fn place(&self, object: &Placed, local: u32, p: DVec3, uv: [f32; 2]) -> Place {
