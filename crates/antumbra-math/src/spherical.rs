@@ -83,8 +83,13 @@ impl SphericalRectangle {
     /// its two triangles then).
     #[inline]
     pub fn new(corner: DVec3, u: DVec3, v: DVec3) -> Option<SphericalRectangle> {
-        let (lu, lv) = (u.length(), v.length());
-        let (ex, ey) = (u / lu, v / lv);
+        let [lu, lv] = [u.length(), v.length()];
+        SphericalRectangle::of_sides(corner, [u / lu, v / lv], [lu, lv])
+    }
+
+    /// The same of unit edges and their lengths.
+    #[inline]
+    pub fn of_sides(corner: DVec3, [ex, ey]: [DVec3; 2], [lu, lv]: [f64; 2]) -> Option<SphericalRectangle> {
         let (x0, y0, z) = (corner.dot(ex), corner.dot(ey), corner.dot(ex.cross(ey)).abs());
         let (x1, y1) = (x0 + lu, y0 + lv);
         if z <= Self::GRAZING * (x0.abs().max(x1.abs()) + y0.abs().max(y1.abs())) {

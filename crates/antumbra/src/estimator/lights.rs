@@ -1,6 +1,6 @@
 //! Sampling the lights: which one, which point of it, and what a segment to it would carry.
 
-use antumbra_math::Rgb;
+use antumbra_math::{Rgb, World};
 
 use super::proposals::plane_of;
 use super::{Draws, FoundLight, Mistake, Nth, Options, Proposals};
@@ -190,6 +190,14 @@ impl Lights {
             Some(sampler) => sampler.prepare(scene.lights(), from, scratch).prob(found.light),
         };
         prob * scene.lights()[found.light as usize].pdf(from, found.wi, self.how)
+    }
+
+    /// No light lies along `wi`, blocked or not: a ray that only looks for light need not be traced. Says so where the
+    /// lights are few enough to be asked one by one.
+    #[inline]
+    pub fn out_of_reach(&self, scene: &Scene, at: &Receiver, wi: World) -> bool {
+        let lights = scene.lights();
+        lights.len() <= AUTO_ALL && lights.iter().all(|light| light.hit(at.p, wi).is_none())
     }
 
     /// The factor by which a wrong estimator differs from the right one.

@@ -42,6 +42,9 @@ impl Mis {
             let Some(d) = self.directions.draw(at, u, nth) else { continue };
             let throughput = d.throughput * at.throughput * share;
             let found = if d.density.is_delta() || twice { Found::All } else { Found::Weighed };
+            if goes_on.is_none() && self.lights.out_of_reach(scene, at, d.wi) {
+                continue;
+            }
             let (from, branch, density) = (from as u32, nth.j, d.density);
             out.ray(at, d.wi, Onward { from, throughput, branch, density, found, goes_on });
         }

@@ -23,6 +23,36 @@ pub struct Rectangle {
     /// The back shines too.
     pub both_sides: bool,
     first_prim: PrimId,
+    sides: Sides,
+}
+
+/// What follows from its edges, once for all samples.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Sides {
+    /// Unit edges and their lengths.
+    edges: [DVec3; 2],
+    lengths: [f64; 2],
+    /// Unit normal of the front, area, largest coordinate.
+    n: DVec3,
+    area: f64,
+    extent: f64,
+    /// u ⊥ v.
+    right: bool,
+}
+
+impl Sides {
+    fn of(corner: DVec3, u: DVec3, v: DVec3) -> Sides {
+        let (cross, lengths) = (u.cross(v), [u.length(), v.length()]);
+        let area = cross.length();
+        Sides {
+            edges: [u / lengths[0], v / lengths[1]],
+            lengths,
+            n: cross / area,
+            area,
+            extent: largest(&[corner, corner + u, corner + u + v, corner + v]),
+            right: u.dot(v).abs() <= 1e-6 * (lengths[0] * lengths[1]),
+        }
+    }
 }
 
 /// How the solid angle is drawn: one density 1/Ω, by whichever form keeps its digits.
@@ -35,7 +65,8 @@ enum Seen {
 impl Rectangle {
     /// The rectangle corner + α u + β v, α and β in [0, 1], shining from the side of u × v.
     pub fn new(corner: World, u: World, v: World, radiance: Rgb) -> Rectangle {
-        Rectangle { corner, u, v, radiance, both_sides: false, first_prim: NO_PRIM }
+        let sides = Sides::of(corner.as_dvec3(), u.as_dvec3(), v.as_dvec3());
+        Rectangle { corner, u, v, radiance, both_sides: false, first_prim: NO_PRIM, sides }
     }
 
     /// Whether the back shines too.
@@ -55,16 +86,8 @@ impl Rectangle {
 
     #[inline]
     fn front(&self) -> Front {
-        let (corner, u, v) = self.edges();
-        let cross = u.cross(v);
-        let area = cross.length();
-        Front {
-            n: cross / area,
-            area,
-            extent: largest(&[corner, corner + u, corner + u + v, corner + v]),
-            radiance: self.radiance,
-            both_sides: self.both_sides,
-        }
+        let Sides { n, area, extent, .. } = self.sides;
+        Front { n, area, extent, radiance: self.radiance, both_sides: self.both_sides }
     }
 
     /// The primitive under the point (α, β): the triangle below the diagonal or the one above.
@@ -82,15 +105,14 @@ impl Rectangle {
             let foot = DVec2::new(to.cross(v).dot(n), -to.cross(u).dot(n)) / n.length_squared();
             let near = foot.clamp(DVec2::ZERO, DVec2::ONE);
             let distance = (corner + u * near.x + v * near.y - p).length();
-            (near, DVec2::new(distance / u.length(), distance / v.length()))
+            (near, distance / DVec2::from(self.sides.lengths))
         })
     }
 
     /// p lies where the light shines.
     #[inline]
     fn faces(&self, p: DVec3) -> bool {
-        let (corner, u, v) = self.edges();
-        let height = (p - corner).dot(u.cross(v));
+        let height = (p - self.corner.as_dvec3()).dot(self.sides.n);
         height > 0.0 || (self.both_sides && height < 0.0)
     }
 
@@ -99,8 +121,8 @@ impl Rectangle {
     fn seen(&self, p: DVec3) -> Seen {
         let (corner, u, v) = self.edges();
         let a = corner - p;
-        let right = u.dot(v).abs() <= 1e-6 * (u.length() * v.length());
-        if right && let Some(rectangle) = SphericalRectangle::new(a, u, v) {
+        let Sides { edges, lengths, right, .. } = self.sides;
+        if right && let Some(rectangle) = SphericalRectangle::of_sides(a, edges, lengths) {
             return Seen::Rectangle(rectangle);
         }
         let [b, c, d] = [a + u, a + u + v, a + v];

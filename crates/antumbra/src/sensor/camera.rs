@@ -123,9 +123,11 @@ impl Sensor for CameraSensor {
         // Numbers belong to the pixel of the whole picture: a crop shows the same noise.
         let stream_of = |[x, y]: [u32; 2]| stream(looking.seed, y * self.view.size[0] + x, replicate);
         scratch.rays.clear();
+        scratch.streams.clear();
         for cell in 0..tile.cells() {
             let pixel = pixel_of(cell);
             let stream = stream_of(pixel);
+            scratch.streams.push(stream);
             let offset = self.offset(looking.sampler.pair(stream, index, of, Use::Pixel.at(0)));
             let (o, d) =
                 self.ray(f64::from(pixel[0]) + 0.5 + offset[0], f64::from(pixel[1]) + 0.5 + offset[1]);
@@ -150,7 +152,7 @@ impl Sensor for CameraSensor {
             if !met.shown.is_black() && looking.seen == Seen::Light {
                 note_light(film, cell, met.shown);
             }
-            let receiver = Receiver { cell, stream: stream_of(pixel_of(cell)), index, ..met.receiver };
+            let receiver = Receiver { cell, stream: scratch.streams[i], index, ..met.receiver };
             note_surface(film, &receiver, hits.t[i] as f32);
             out.push(receiver);
         }

@@ -66,6 +66,8 @@ pub enum Seen {
 pub struct Scratch {
     /// Rays to trace.
     pub rays: SegmentBuffer,
+    /// Streams of their random numbers.
+    pub streams: Vec<u32>,
     /// What they met.
     pub hits: Hits,
 }
