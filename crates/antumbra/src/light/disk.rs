@@ -3,7 +3,7 @@
 use antumbra_math::{DVec2, DVec3, Rgb, World, closed, real, warp};
 use antumbra_trace::{NO_PRIM, PrimId, Shape};
 
-use super::flat::{Front, lies_on};
+use super::flat::{Front, far_irradiance, lies_on, lit};
 use super::square::Square;
 use super::{LightBounds, LightHit, LightKind, LightPoints, LightSample, LightSurface, OutlinePoint};
 use crate::receiver::Receiver;
@@ -144,6 +144,17 @@ impl LightKind for Disk {
             c + (s * x + t * y) * around
         });
         front.irradiance(closed::polygon(&corners, n))
+    }
+
+    /// From its middle where it is far.
+    #[inline]
+    fn weight(&self, at: &Receiver) -> f32 {
+        let reach2 = self.radius * self.radius;
+        let area = self.normal.normalize() * (real::PI * reach2);
+        match far_irradiance(self.center - at.p, area, reach2, at.ng) {
+            Some(signed) => lit(signed, self.both_sides) * self.radiance.luminance(),
+            None => self.irradiance(at),
+        }
     }
 
     fn power(&self, _scene_radius: f32) -> f32 {

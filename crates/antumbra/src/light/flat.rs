@@ -130,7 +130,7 @@ impl Front {
 
 /// The irradiance of a small flat light as if it sat in its middle: A cos θ cos θ′ / r², signed by the side, with `to` the
 /// way to its middle, `area` the front normal times A, `reach2` the squared distance of its farthest corner from the
-/// middle. `None` if it looks larger than a third of a radian across, if the horizon may cut it, or if f32 cannot tell
+/// middle. `None` if it looks larger than two thirds of a radian across, if the horizon may cut it, or if f32 cannot tell
 /// its sides apart.
 #[inline]
 pub(super) fn far_irradiance(to: World, area: World, reach2: f32, n: World) -> Option<f32> {
@@ -138,7 +138,7 @@ pub(super) fn far_irradiance(to: World, area: World, reach2: f32, n: World) -> O
     let height = to.dot(n);
     let facing = -to.dot(area);
     let edge_on = facing * facing <= 1e-10 * distance2 * area.length_squared();
-    if distance2 < 36.0 * reach2 || height * height <= reach2 || edge_on {
+    if distance2 < 9.0 * reach2 || height * height <= reach2 || edge_on {
         return None;
     }
     Some(if height > 0.0 { facing / distance2 * (height / distance2) } else { 0.0 })

@@ -150,7 +150,7 @@ pub trait LightKind {
     /// Unoccluded irradiance at `at` on the side of its geometric normal, luminance [W/m²], exact or estimated; above 0
     /// wherever the light can contribute.
     fn irradiance(&self, at: &Receiver) -> f32;
-    /// A cheap stand-in for [`irradiance`](LightKind::irradiance), within a few percent of it where that takes long;
+    /// A cheap stand-in for [`irradiance`](LightKind::irradiance), within a fifth of it where that takes long;
     /// above 0 wherever it is.
     fn weight(&self, at: &Receiver) -> f32 {
         self.irradiance(at)

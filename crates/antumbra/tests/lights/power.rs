@@ -35,8 +35,8 @@ fn irradiance_is_what_the_samples_carry() {
     }
 }
 
-/// `weight` is above 0 where `irradiance` is, and within a twentieth of it: of a light that looks a third of a radian
-/// across, the middle stands for the whole.
+/// `weight` is above 0 where `irradiance` is, and within a fifth of it: of a light that looks two thirds of a radian
+/// across, the middle stands for the whole, to about the square of a third.
 #[test]
 fn weights_stand_in_for_irradiances() {
     for (kind, light) in Light::examples() {
@@ -46,7 +46,7 @@ fn weights_stand_in_for_irradiances() {
             let at = receiver(p.to_array(), warp::sphere(numbers(i, 23)).0.to_array());
             let (weight, e) = (light.weight(&at), light.irradiance(&at));
             assert!(
-                (weight - e).abs() <= 0.05 * e && (weight > 0.0 || e <= 0.0),
+                (weight - e).abs() <= 0.2 * e && (weight > 0.0 || e <= 0.0),
                 "{kind} from {p}: {weight}, {e}"
             );
         }
