@@ -92,7 +92,7 @@ mod tests {
         for i in 1..32 {
             v[i] = v[i - 1] ^ (v[i - 1] << 1);
         }
-        for index in (0..1000).map(|i| hash::mix32(i)).chain([0, 1, u32::MAX]) {
+        for index in (0..1000).map(hash::mix32).chain([0, 1, u32::MAX]) {
             let sum = (0..32).filter(|i| index >> i & 1 == 1).fold(0, |x, i| x ^ v[i]);
             assert_eq!(sobol_reversed(index), sum, "{index:#x}");
         }
