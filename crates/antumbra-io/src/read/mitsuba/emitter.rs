@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use antumbra::light::{Directional, Environment, Point, Spot};
+use antumbra::texture::{Image, Texels};
 use antumbra_math::{DVec3, Frame, Rgb, Transform};
 
 use super::Reader;
@@ -134,7 +135,27 @@ fn envmap<'a>(reader: &mut Reader<'a>, element: &'a Element, world: &Transform) 
     if s.dot(t).abs().max(t.dot(n).abs()).max(n.dot(s).abs()) > 1e-3 {
         return Err(element.at.error("the transform of the envmap is not a rotation"));
     }
-    let light = Environment::image(Arc::new(image)).oriented(Frame { s, t, n });
+    let light = Environment::image(Arc::new(between_poles(image))).oriented(Frame { s, t, n });
     reader.scene.light(name(element), light.scaled(Rgb::grey(scale as f32)));
     Ok(())
+}
+
+/// Mitsuba lays the first and the last row of an envmap onto the poles, we lay them half a row below and above: rows
+/// where ours are, twice as many less two, by its interpolation.
+fn between_poles(image: Image) -> Image {
+    let (width, height) = (image.width, image.height);
+    if height < 2 {
+        return image;
+    }
+    let rows = 2 * (height - 1);
+    let mut texels = Vec::with_capacity(width as usize * rows as usize);
+    for k in 0..rows {
+        // Row k lies at j = (k + ½)/2 of the file's rows.
+        let (j, part) = (k / 2, if k % 2 == 0 { 0.25 } else { 0.75 });
+        for x in 0..width {
+            let (a, b) = (image.texel(x, j), image.texel(x, j + 1));
+            texels.push([0, 1, 2].map(|c| a[c] + (b[c] - a[c]) * part));
+        }
+    }
+    Image::new(width, rows, Texels::Float(texels)).unwrap_or(image)
 }
