@@ -1,7 +1,7 @@
 # The verbs of this repository; `make` alone lists them. Everything they need is set up on the way.
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
-.PHONY: help demo test lint bench stress docs gallery wheel setup clean
+.PHONY: help demo test lint bench stress agreement docs gallery wheel setup clean
 
 VENV := .venv
 RIVALS := .venv-bench
@@ -38,6 +38,9 @@ stress: $(VENV)/.dev ## the tests at full size (10⁸ rays; long)
 
 bench: $(RIVALS)/.ok ## measure speed: kernels, then races against other programs (RACE=--quick: small sizes)
 	@tools/run_benches.sh $(RACE)
+
+agreement: $(VENV)/.ok ## our pictures beside another renderer's references, as docs/agreement (QUICK=--quick: a look)
+	@$(BIN)/python tools/agreement $(QUICK)
 
 docs: $(VENV)/.ok ## write the reference pages that are made from the source
 	$(BIN)/python tools/reference.py

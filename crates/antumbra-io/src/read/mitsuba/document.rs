@@ -15,6 +15,8 @@ use crate::read::text::plain;
 const DEEPEST: usize = 100;
 /// Files that include each other, one below the other.
 const INCLUDES: usize = 15;
+/// Bytes of a text that is made of `$names`.
+const LONGEST: usize = 1 << 16;
 /// Bytes that an element takes in memory, at least.
 const ELEMENT_BYTES: u64 = 256;
 
@@ -215,6 +217,9 @@ impl Loader<'_> {
                 return Err(format!("${} has no value", &after[..end]));
             };
             out.push_str(&self.values[name]);
+            if out.len() > LONGEST {
+                return Err(format!("${name} makes a text of more than {LONGEST} bytes: it is too long"));
+            }
             rest = &after[name.len()..];
         }
         out.push_str(rest);

@@ -1,0 +1,71 @@
+"""`python tools/agreement [--quick] [SCENE …]`: renders what is not rendered yet, compares, writes docs/agreement."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+from pathlib import Path
+
+import numpy as np
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tools"))
+
+from agreement import page, scenes  # noqa: E402
+from agreement.compare import Noisy, compare  # noqa: E402
+
+# Why a picture differs, where it does, for people; by "scene.variant".
+NOTES: dict[str, str] = {}
+
+
+def data_folder() -> Path:
+    """ANTUMBRA_DATA, or ../shared/data beside the repository."""
+    return Path(os.environ.get("ANTUMBRA_DATA") or ROOT.parent / "shared" / "data")
+
+
+def picture(data: Path, kept: Path, ref: scenes.Reference, rays: int) -> scenes.Ours:
+    """Our picture: kept from an earlier run with as many rays, or rendered now."""
+    file = kept / f"{ref.scene}.{ref.variant}.{rays}.npz"
+    if file.exists():
+        with np.load(file) as z:
+            grey = Noisy(z["value"], z["error"])
+            return scenes.Ours(z["pixels"], grey, float(z["seconds"]), str(z["hash"]))
+    ours = scenes.render(scenes.opened(data, ref), ref, rays)
+    kept.mkdir(parents=True, exist_ok=True)
+    beside = file.with_suffix(".part.npz")
+    np.savez(
+        beside, pixels=ours.pixels, value=ours.grey.value, error=ours.grey.error,
+        seconds=ours.seconds, hash=ours.hash,
+    )  # fmt: skip
+    beside.replace(file)
+    return ours
+
+
+def main() -> int:
+    """Runs everything; 1 if a picture differs."""
+    parser = argparse.ArgumentParser(prog="agreement", description=__doc__)
+    parser.add_argument("scenes", nargs="*", help="only these (the page is not written)")
+    parser.add_argument("--quick", action="store_true", help="few rays: a look, not a measurement; no page")
+    parser.add_argument("--fresh", action="store_true", help="render everything again")
+    options = parser.parse_args()
+    data, kept = data_folder(), ROOT / "target" / "agreement"
+    if options.fresh and kept.exists():
+        for file in kept.glob("*.npz"):
+            file.unlink()
+    entries = []
+    for scene, variant in scenes.listed(data):
+        if options.scenes and scene not in options.scenes:
+            continue
+        rays = scenes.rays(variant, options.quick)
+        ref = scenes.reference(data, scene, variant)
+        ours = picture(data, kept, ref, rays)
+        entries.append(page.Entry(ref, ours, rays, compare(ours.grey, ref.grey)))
+        print(page.said(entries[-1]), flush=True)
+    if not options.quick and not options.scenes:
+        page.write(ROOT / "docs" / "agreement", entries, NOTES)
+    return 0 if all(e.found.holds for e in entries) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
