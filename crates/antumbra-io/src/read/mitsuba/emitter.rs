@@ -140,18 +140,23 @@ fn envmap<'a>(reader: &mut Reader<'a>, element: &'a Element, world: &Transform) 
     Ok(())
 }
 
+/// Texels of an envmap in the rows that we need; beyond, the rows are only doubled.
+const ENOUGH: u64 = 1 << 22;
+
 /// Mitsuba lays the first and the last row of an envmap onto the poles, we lay them half a row below and above: rows
-/// where ours are, twice as many less two, by its interpolation.
+/// where ours are, by its interpolation, two to eight for each of its own so that the bends at its rows stay sharp.
 fn between_poles(image: Image) -> Image {
     let (width, height) = (image.width, image.height);
     if height < 2 {
         return image;
     }
-    let rows = 2 * (height - 1);
+    let texels = u64::from(width) * u64::from(height);
+    let each = [8, 4].into_iter().find(|n| texels * u64::from(*n) <= ENOUGH).unwrap_or(2);
+    let rows = each * (height - 1);
     let mut texels = Vec::with_capacity(width as usize * rows as usize);
     for k in 0..rows {
-        // Row k lies at j = (k + ½)/2 of the file's rows.
-        let (j, part) = (k / 2, if k % 2 == 0 { 0.25 } else { 0.75 });
+        // Row k lies at j = (k + ½)/each of the file's rows.
+        let (j, part) = (k / each, ((k % each) as f32 + 0.5) / each as f32);
         for x in 0..width {
             let (a, b) = (image.texel(x, j), image.texel(x, j + 1));
             texels.push([0, 1, 2].map(|c| a[c] + (b[c] - a[c]) * part));
