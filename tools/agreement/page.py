@@ -24,10 +24,10 @@ read the same `scene.xml` and render it with the settings of the same name. The 
 
 What is compared is the mean of the three channels. A pixel is left out as a firefly where its standard error, in either
 picture, is above 20 times the mean of those of that picture that are not 0. *Mean* is ours over theirs with its
-standard error; *tile* is the median over tiles of 8 × 8 pixels of the relative difference, *noise* what the noise of both pictures
-alone makes of it, *beyond* what is left of the first without the second; *far* are tiles more than five standard errors
-apart (differences below a thousandth of the picture's mean do not count). An entry holds if the mean lies within 1 %
-and the median tile within 2 %, beyond the noise of both.
+standard error; *tile* is the median over tiles of 8 × 8 pixels of the relative difference, *noise* what the noise of
+both pictures alone makes of it, *beyond* what is left of the first without the second; *far* are tiles more than five
+standard errors apart (differences below a thousandth of the picture's mean do not count). An entry holds if the mean
+lies within 1 % and the median tile within 2 %, beyond the noise of both.
 
 In the pictures: ours, theirs, and (ours − theirs) / theirs from −20 % (blue) to 20 % (red) of each pixel, so that noise
 is grain and a real difference a patch of one colour.
