@@ -21,6 +21,8 @@ pub struct RoughCoat {
     reflected: [[u16; PLACES]; 2],
     /// Ē: the mean of E over light that is equal from everywhere.
     mean: f32,
+    /// The mean of what the facets reflect: Ē, unless light is lost.
+    shiny: f32,
     /// R: the share of the base's light that the coat sends back.
     internal: f32,
     /// See [`super::Coat::new`].
@@ -32,10 +34,17 @@ impl RoughCoat {
     /// bounce. What facets do not reflect goes through them: a white base gives back everything.
     pub fn new(eta: f32, facets: Facets, nonlinear: bool) -> RoughCoat {
         let eta = fresnel::index(eta);
-        let coat =
-            RoughCoat { eta, facets, reflected: [[0; PLACES]; 2], mean: 0.0, internal: 0.0, nonlinear };
+        let coat = RoughCoat {
+            eta,
+            facets,
+            reflected: [[0; PLACES]; 2],
+            mean: 0.0,
+            shiny: 0.0,
+            internal: 0.0,
+            nonlinear,
+        };
         let coat = coat.with(|w| shared(facets, eta, w));
-        RoughCoat { internal: internal(coat.mean, eta), ..coat }
+        RoughCoat { shiny: coat.mean, internal: internal(coat.mean, eta), ..coat }
     }
 
     /// The same with other shares E(ω).
@@ -229,7 +238,7 @@ impl BsdfKind for RoughPlastic {
 
     fn albedo(&self) -> Rgb {
         let through = 1.0 - self.coat.mean;
-        Rgb::grey(self.coat.mean) + self.base * (real::PI * through * through)
+        Rgb::grey(self.coat.shiny) + self.base * (real::PI * through * through)
     }
 
     fn examples() -> Vec<RoughPlastic> {
