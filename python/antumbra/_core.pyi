@@ -22,6 +22,8 @@ __all__ = [
     "read_part",
     "read_picture",
     "settings",
+    "sky",
+    "sun_position",
     "write_picture",
 ]
 
@@ -55,7 +57,7 @@ class Scene:
         path: str,
         up_axis: str | None = None,
         files_from: str | PathLike[str] | None = None,
-        parameters: Sequence[tuple[str, str]] = (),
+        parameters: Sequence[tuple[str, str]] = ...,
         keep: bool = True,
     ) -> Scene: ...
     @property
