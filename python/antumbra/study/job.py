@@ -89,6 +89,12 @@ class Job:
         if not common:
             return
         why = "; ".join(f"{kind} {reason}" for kind, reason in refused.items())
+        if self.by in common:
+            self._warn(
+                f"the reference is of the same kind as a variant ({self.by}): an error of both does not show;"
+                f" {why}"
+            )
+            return
         what = (
             f"the reference, {self.by}, has parts in common with {' and '.join(common)}:"
             f" an error in those does not show{f'; of those without, {why}' if why else ''}"

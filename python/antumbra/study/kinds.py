@@ -23,7 +23,10 @@ PARTS = {
     "path-hemisphere": {"hemisphere"},
 }
 # A reference whose mean is known less well than this, as a part of itself, is too noisy: 95 %, of the whole picture.
-_NOISY = 0.01
+# One that shares parts with the variants gives up more of what a reference is for, so it may be noisier.
+_NOISY, _NOISY_SHARED = 0.01, 0.05
+# What samples lights and directions both finds all light, also that which is small: pilots are held against it.
+_TRUSTED = {"direct": "mis", "all": "path"}
 # A pilot's seeds, and the part of the reference's rays that it has.
 _SEEDS, _PART = 4, 16
 _PILOT_SEED = 1 << 28
@@ -59,20 +62,27 @@ def shared(kind: str, plan: Plan) -> list[str]:
 
 
 def chosen(plan: Plan, work: Work, rays: int) -> Choice:
-    """The first of `apart` that sees all light and is not too noisy, as short pilots find; else `any_other`."""
-    kind, refused = any_other(plan), dict[str, str]()
+    """The first that sees all light and is not too noisy, as short pilots find: of `apart`, then of the others.
+
+    Without one it is that which samples lights and directions both, though the plan varies it.
+    """
+    trusted = _TRUSTED[plan.variants[0].shows]
     truths = list({v.truth(): v for v in plan.variants}.values())
-    for each in apart(plan):
-        if each == kind:
-            return Choice(kind, refused)
-        why = next(filter(None, (_wrong(plan, work, variant, each, kind, rays) for variant in truths)), "")
+    refused: dict[str, str] = {}
+    for kind in dict.fromkeys([*apart(plan), any_other(plan)]):
+        most = _NOISY_SHARED if shared(kind, plan) else _NOISY
+        why = ""
+        # Light points miss no light; of the last choice that is enough.
+        if kind != trusted and not kind == any_other(plan) == "area":
+            wrong = (_wrong(plan, work, variant, kind, trusted, rays, most) for variant in truths)
+            why = next(filter(None, wrong), "")
         if not why:
-            return Choice(each, refused)
-        refused[each] = why
-    return Choice(kind, refused)
+            return Choice(kind, refused)
+        refused[kind] = why
+    return Choice(trusted, refused)
 
 
-def _wrong(plan: Plan, work: Work, variant: Variant, kind: str, other: str, rays: int) -> str:
+def _wrong(plan: Plan, work: Work, variant: Variant, kind: str, other: str, rays: int, most: float) -> str:
     """What speaks against an estimator as the reference of a variant's truth; nothing if all is well."""
     work.scene(variant.parameters)
     said = dict(work.messages)
@@ -83,7 +93,7 @@ def _wrong(plan: Plan, work: Work, variant: Variant, kind: str, other: str, rays
             return "does not see all lights here"
         mean, spread = float(means.mean()), float(means.std(ddof=1))
         noise = t_quantile(0.975, REFERENCE_SEEDS - 1) * spread * math.sqrt(part / REFERENCE_SEEDS)
-        if mean == 0 or noise > _NOISY * mean:
+        if mean == 0 or noise > most * mean:
             return "is too noisy here"
         against, _ = _pilot(plan, work, variant, other, rays)
     finally:

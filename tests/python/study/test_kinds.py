@@ -88,3 +88,24 @@ def test_a_small_light_that_directions_miss_accuses_nobody(floor_under_sky):
     )
     assert found.reference.startswith("mis") and not found.flagged()
     assert "of the light of mis in a pilot" in warned(found)[0] or "too noisy" in warned(found)[0]
+
+
+# A clear sky low over the horizon with its sun, half a degree wide: a direction in some 10⁵ hits it.
+SUNNY = {"environment": "sky:elevation=40:azimuth=120", "reference_rays": 2048}
+
+
+def test_under_a_small_sun_paths_of_directions_judge_nobody():
+    found = am.study.run("pillars", vary={"sampler": ["random", "owen"]}, **SUNNY, **SMALL)
+    assert found.reference.startswith("path,") and not found.flagged() and found.tested()
+    (text,) = [text for level, _, text in found.messages if level == "warning" and "same kind" in text]
+    assert "path-hemisphere" in text and ("of the light of path" in text or "too noisy" in text)
+
+
+def test_under_a_small_sun_directions_judge_neither_light_points_nor_both():
+    found = am.study.run("pillars", vary={"estimator": ["area", "mis"]}, **SUNNY, **SMALL)
+    assert found.reference.startswith("mis,") and not found.flagged() and found.tested()
+
+
+def test_paths_of_directions_judge_paths_where_they_find_the_light(floor_under_sky):
+    found = am.study.run(floor_under_sky, vary={"shadow_rays": [1, 4]}, reference_rays=2048, **SMALL, **DOWN)
+    assert found.reference.startswith("path-hemisphere") and not found.flagged()
