@@ -104,10 +104,20 @@ def _source(
     from antumbra.study.sources import file, source
 
     given = dict(_scene.definition(text) for text in definitions)
-    parameters = {name: _scene.number(name, text) for name, text in given.items()}
-    if _scene.is_file(scene, up_axis, files_from):
-        return file(scene, up_axis, files_from), parameters
+    is_file = _scene.is_file(scene, up_axis, files_from)
+    texts = {name: text for name, text in given.items() if is_file and not _is_number(text)}
+    parameters = {name: _scene.number(name, text) for name, text in given.items() if name not in texts}
+    if is_file:
+        return file(scene, up_axis, files_from, texts), parameters
     return source(scene), parameters
+
+
+def _is_number(text: str) -> bool:
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
 
 
 def _varied(text: str) -> tuple[str, list[str]]:

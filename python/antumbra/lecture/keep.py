@@ -10,11 +10,10 @@ import shutil
 import tempfile
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from functools import cache
 from pathlib import Path
 from typing import Any
 
-from antumbra import __version__, _core
+from antumbra._made_by import made_by
 from antumbra.lecture import catalog
 
 # Another number where what is kept gets another form.
@@ -24,20 +23,9 @@ _PLACE = re.compile(r"(pictures|exr)/[^./\\:\0][^/\\:\0]*")
 
 
 def key(name: str, quick: bool, seed: int) -> str:
-    """A number that changes with everything that a figure's result depends on: sources, core, size, seed."""
-    seen = hashlib.sha256(f"{FORM} {__version__} {name} {quick} {seed}".encode())
-    core = Path(_core.__file__ or "")
-    for path in [*catalog.sources(name), *([core] if core.is_file() else [])]:
-        status = path.stat()
-        seen.update(path.as_posix().removeprefix(catalog.ROOT.as_posix()).encode() + b"\0")
-        seen.update(_content(path, status.st_size, status.st_mtime_ns))
-    return seen.hexdigest()[:16]
-
-
-@cache
-def _content(path: Path, size: int, time: int) -> bytes:
-    """The hash of a file, read once as long as its size and time stay."""
-    return hashlib.sha256(path.read_bytes()).digest()
+    """A number that changes with everything that a figure's result depends on: sources, core, libraries, size, seed."""
+    made = made_by(catalog.sources(name))
+    return hashlib.sha256(f"{FORM} {made} {name} {quick} {seed}".encode()).hexdigest()[:16]
 
 
 class Folder:

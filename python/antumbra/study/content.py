@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import glob
 import hashlib
 import json
+import re
 from collections.abc import Iterator
+from html import unescape
 from pathlib import Path
 from typing import Any
 from urllib.parse import unquote
@@ -25,16 +28,21 @@ def content(scene: Path) -> str:
             # What cannot be read is told when the scene is.
             data = b""
         seen.update(hashlib.sha256(data).digest())
-        names = _named(file.suffix.lower(), data)
-        beside = [folder / name for name in names for folder in (scene.parent, file.parent)]
+        names = list(_named(file.suffix.lower(), data))
+        folders = dict.fromkeys((scene.parent, file.parent))
+        beside = [found for name in names for folder in folders for found in _at(folder, name)]
         waiting += [f for f in dict.fromkeys(beside) if f not in known]
         known.update(beside)
     return seen.hexdigest()
 
 
 def _named(suffix: str, data: bytes) -> Iterator[str]:
-    """The files that a glTF, an OBJ or an MTL names, relative to it."""
-    if suffix in (".gltf", ".glb"):
+    """What a glTF, an OBJ, an MTL or a Mitsuba XML names, relative to it; of an XML any quoted text may be a name."""
+    if data.lstrip(_BLANK).startswith(b"<"):
+        yield from dict.fromkeys(
+            unescape(a or b) for a, b in _QUOTED.findall(data.decode("utf-8", "replace"))
+        )
+    elif suffix in (".gltf", ".glb"):
         if data.startswith(_GLB):
             data = data[_JSON : _JSON + int.from_bytes(data[_LENGTH], "little")]
         try:
@@ -49,6 +57,24 @@ def _named(suffix: str, data: bytes) -> Iterator[str]:
                 yield from dict.fromkeys([words[0].strip(), *words[0].split()])
 
 
+def _at(folder: Path, name: str) -> list[Path]:
+    """The files of that name; of one with parameters (`$name`), all that it may come to be."""
+    try:
+        if "$" in name:
+            pattern = "*".join(glob.escape(part) for part in _PARAMETER.split(name))
+            root = Path(pattern).anchor
+            found = (Path(root) if root else folder).glob(pattern.removeprefix(root))
+            return sorted(path for path in found if path.is_file())
+        return [folder / name] if (folder / name).is_file() else []
+    except (OSError, ValueError):
+        # Too long for a name, or with a zero: no file's.
+        return []
+
+
+_QUOTED = re.compile(r"""=\s*(?:"([^"]*)"|'([^']*)')""")
+_PARAMETER = re.compile(r"\$[\w-]+")
+# White space and the byte order mark, which may stand before an XML's first tag.
+_BLANK = b" \t\r\n\xef\xbb\xbf"
 _MAPS = ("map_", "bump", "norm", "disp")
 
 

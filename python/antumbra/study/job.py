@@ -12,9 +12,11 @@ from typing import Any
 
 import numpy as np
 
-from antumbra import __version__, settings
+from antumbra import settings
+from antumbra._made_by import ROOT, made_by
 from antumbra.errors import OptionError
 from antumbra.study import kinds, renders
+from antumbra.study.content import content
 from antumbra.study.files import check_folder, finished_rows, keep, kept_pilots, write
 from antumbra.study.plan import Plan, Variant
 from antumbra.study.renders import Step, Work
@@ -44,7 +46,7 @@ class Job:
         self.plan, self.source, self.work = made, source, Work(source.open, watch)
         self.truths = list(dict.fromkeys(v.truth() for v in made.variants))
         self.given: Reference | None = None
-        self.command = ""
+        self.command, self.made = "", _made(made)
         self.by, self.rays, self.chooses = "", 0, False
         self.warnings: list[tuple[str, str, str]] = []
         self.pilots: dict[str, Any] = {}
@@ -198,7 +200,7 @@ class Job:
             return ""
         given = [None if a is None else hashlib.sha256(a.tobytes()).hexdigest() for a in self._given_arrays()]
         whole = [
-            __version__, self.source.identity, self.plan.fixed, self.plan.seeds, self.plan.first_seed, self.by,
+            self.made, self.source.identity, self.plan.fixed, self.plan.seeds, self.plan.first_seed, self.by,
             self._reference_rays(), sorted(self.plan.variants[0].parameters.items() - _varied(self.plan)),
             given, self.plan.budget,
         ]  # fmt: skip
@@ -210,7 +212,7 @@ class Job:
             return ""
         plan = self.plan
         what = [
-            __version__, self.source.identity, plan.fixed, plan.varied, plan.seeds, plan.first_seed, plan.budget,
+            self.made, self.source.identity, plan.fixed, plan.varied, plan.seeds, plan.first_seed, plan.budget,
             [v.budget for v in plan.variants], [v.parameters for v in plan.variants], self.by, self.rays,
         ]  # fmt: skip
         return hashlib.sha256(json.dumps(what).encode()).hexdigest()[:16]
@@ -241,6 +243,13 @@ class Job:
             command=self.command,
             pilots=self.pilots,
         )
+
+
+def _made(plan: Plan) -> list[str]:
+    """What decides the numbers beside scene and settings: the program itself, and the pictures that light the scene."""
+    around = sorted({v.words["environment"] for v in plan.variants if "environment" in v.words})
+    sources = sorted([*ROOT.glob("*.py"), *(ROOT / "study").rglob("*.py")])
+    return [made_by(sources), *(content(Path(name)) for name in around if Path(name).is_file())]
 
 
 def key_of(row: Row) -> str:

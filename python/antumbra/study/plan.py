@@ -83,9 +83,13 @@ def plan(
     parameters: Mapping[str, float],
     budget: Mapping[str, Sequence[float]],
     seeds: int,
+    verbatim: bool = False,
 ) -> Plan:
-    """Checks everything and lays out the variants. Raises OptionError with the nearest right word."""
-    names = {name: _name(name) for name in vary}
+    """Checks everything and lays out the variants. Raises OptionError with the nearest right word.
+
+    `verbatim`: names of the scene's parameters stay as they are given; else `_` is `-` in them.
+    """
+    names = {name: name if verbatim and name.startswith("D.") else _name(name) for name in vary}
     if len(set(names.values())) < len(names):
         raise OptionError("the same thing is varied twice: give all its values at once")
     varied = {names[name]: _values(names[name], list(values)) for name, values in vary.items()}

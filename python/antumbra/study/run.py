@@ -58,12 +58,11 @@ def run(
     >>> am.study.run("pillars", vary={"shadow_rays": [1, 4]}, estimator="area", viewing_rays=1, size=(8, 6), seeds=3)
     <Study of pillars: 2 rows × 3 seeds>
     """
-    made = plan(vary, options, parameters=_dashed(parameters or {}), budget=budget or {}, seeds=seeds)
-    job = Job(made, scene if isinstance(scene, Source) else source(scene), progress)
+    found = scene if isinstance(scene, Source) else source(scene)
+    own = {name: float(value) for name, value in (parameters or {}).items()}
+    own = own if found.verbatim else {name.replace("_", "-"): value for name, value in own.items()}
+    made = plan(vary, options, parameters=own, budget=budget or {}, seeds=seeds, verbatim=found.verbatim)
+    job = Job(made, found, progress)
     job.command = command
     job.settle_reference(reference, reference_error, reference_rays)
     return job.run(None if folder is None else Path(fspath(folder)))
-
-
-def _dashed(parameters: Mapping[str, float]) -> dict[str, float]:
-    return {name.replace("_", "-"): float(value) for name, value in parameters.items()}

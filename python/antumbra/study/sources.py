@@ -19,7 +19,8 @@ Parameters = Mapping[str, float]
 class Source(NamedTuple):
     """`open` makes the scene of given parameters; `name` for people; `identity`: equal = the same scene, if not empty.
 
-    `builtin`: the name whose parameters can be checked beforehand; `fixed`: it has no parameters.
+    `builtin`: the name whose parameters can be checked beforehand; `fixed`: it has no parameters; `verbatim`: their
+    names are a file's own, which may have dashes and underscores both.
     """
 
     open: Callable[[Parameters], Scene]
@@ -27,6 +28,7 @@ class Source(NamedTuple):
     identity: str = ""
     builtin: str = ""
     fixed: bool = False
+    verbatim: bool = False
 
     def check(self, parameters: Iterable[Parameters]) -> None:
         """Raises OptionError if a parameter is unknown or out of its range."""
@@ -55,20 +57,34 @@ def source(scene: Any) -> Source:
     return Source(lambda given: _built_in(scene, given), scene, f"built-in {scene}", builtin=scene)
 
 
-def file(path: str, up_axis: str | None = None, files_from: str | None = None) -> Source:
-    """A scene of a file."""
+def file(
+    path: str,
+    up_axis: str | None = None,
+    files_from: str | None = None,
+    texts: Mapping[str, str] | None = None,
+) -> Source:
+    """A scene of a file; `texts`: values of a Mitsuba file's parameters that are no numbers."""
     from antumbra.scene import load
 
-    at = Path(path)
-    identity = f"{at.resolve()} {content(at)} {up_axis} {files_from}"
-    opened: list[Scene] = []
+    at, texts = Path(path), dict(texts or {})
+    identity = f"{at.resolve()} {content(at)} {up_axis} {files_from} {sorted(texts.items())}"
 
-    def once(_: Parameters) -> Scene:
-        if not opened:
-            opened.append(load(path, up_axis=up_axis, files_from=files_from))
-        return opened[0]
+    def opened(given: Parameters) -> Scene:
+        for name in given.keys() & texts.keys():
+            raise OptionError(f"D.{name} is varied and also given a fixed value: one of the two")
+        values = {**texts, **{name: _written(value) for name, value in given.items()}}
+        return load(path, up_axis=up_axis, files_from=files_from, parameters=values)
 
-    return Source(once, at.name, identity, fixed=True)
+    has_parameters = at.suffix.lower() == ".xml"
+    if texts and not has_parameters:
+        raise OptionError(f"D.{next(iter(texts))}: {at.name} has no parameters")
+    return Source(opened, at.name, identity, fixed=not has_parameters, verbatim=True)
+
+
+def _written(value: float) -> str:
+    """With all its digits, and a whole number without a point."""
+    short = f"{value:g}"
+    return short if float(short) == value else repr(float(value))
 
 
 def _built_in(name: str, parameters: Parameters) -> Scene:

@@ -12,6 +12,7 @@ from pathlib import Path
 
 import pytest
 
+from antumbra import _made_by
 from antumbra.lecture import catalog, keep, make
 from antumbra.lecture.figure import Figure
 
@@ -219,5 +220,5 @@ def test_the_key_is_of_everything_that_computes_a_figure(monkeypatch, tmp_path):
     assert not {"cli/lecture.py", "lecture/page/__init__.py", "lecture/figures/pixel.py"} & ours
     before, core = keep.key("noise", True, 0), tmp_path / "core.so"
     core.write_bytes(b"another core")
-    monkeypatch.setattr(keep._core, "__file__", str(core))
+    monkeypatch.setattr(_made_by._core, "__file__", str(core))
     assert keep.key("noise", True, 0) != before

@@ -14,7 +14,6 @@ import pytest
 import antumbra as am
 from antumbra.study import StudyStopped, files, kinds, plan, renders
 from antumbra.study import statistics as st
-from antumbra.study.content import content
 from antumbra.study.page import short_table
 
 # One ray through the centre of each pixel, points uniform on the lights: all noise is that of the shadow rays.
@@ -195,56 +194,6 @@ def test_a_stopped_study_keeps_its_rows_and_goes_on(tmp_path, monkeypatch):
     assert len(calls) - 100 == 8 + 2 * 3
     whole = am.study.run("pillars", **SMALL)
     assert [r.variances for r in found.rows] == [r.variances for r in whole.rows]
-
-
-def test_kept_rows_have_the_places_of_the_new_plan(tmp_path):
-    options = {**SMALL, "vary": {"D.light-size": [2]}, "reference": "mis", "folder": tmp_path}
-    (alone,) = am.study.run("pillars", **options).rows
-    assert alone.truth == 0 and alone.n is None
-    both = am.study.run("pillars", **{**options, "vary": {"D.light-size": [0.5, 2]}}).rows
-    assert [(row.truth, row.n) for row in both] == [(0, 0.5), (1, 2.0)]
-    assert both[1].variances == alone.variances and both[1].seconds == alone.seconds
-
-
-def test_rows_of_another_reference_error_are_not_mixed(tmp_path):
-    scene = am.builtin("pillars")
-    picture = scene.render(estimator="mis", viewing_rays=64, size=(8, 6))
-    for name in ("truth.exr", "error.exr"):
-        picture.save(tmp_path / name)
-    given = {
-        "reference": tmp_path / "truth.exr",
-        "reference_error": tmp_path / "error.exr",
-        "folder": tmp_path / "out",
-    }
-    first = am.study.run("pillars", **given, **SMALL)
-    am.builtin("pillars", light_size=0.5).render(viewing_rays=4, size=(8, 6)).save(tmp_path / "error.exr")
-    again = am.study.run("pillars", **given, **SMALL)
-    assert again.fingerprint != first.fingerprint
-    assert again.rows[0].reference_variance != first.rows[0].reference_variance
-
-
-GLTF = '{"images": [{"uri": "the%20data.bin"}]}'
-
-
-@pytest.mark.parametrize(
-    ("scene", "text"),
-    [
-        ("a.gltf", GLTF),
-        ("a.glb", "glTF........" + chr(len(GLTF)) + "\0\0\0JSON" + GLTF + "and binary data"),
-        ("a.obj", "mtllib a.mtl\nv 0 0 0"),
-    ],
-    ids=["gltf", "glb", "obj"],
-)
-def test_a_scene_is_another_when_a_file_beside_it_changes(tmp_path, scene, text):
-    (tmp_path / scene).write_text(text, encoding="utf-8")
-    (tmp_path / "a.mtl").write_text("newmtl a\nmap_Kd -s 1 1 the data.bin data.bin", encoding="utf-8")
-    seen = []
-    for data in ("old", "new", "old"):
-        (tmp_path / "the data.bin").write_text(data, encoding="utf-8")
-        (tmp_path / "data.bin").write_text(data, encoding="utf-8")
-        (tmp_path / "unrelated.bin").write_text(str(len(seen)), encoding="utf-8")
-        seen.append(content(tmp_path / scene))
-    assert seen[0] == seen[2] != seen[1]
 
 
 def test_what_is_not_tested_is_told_on_page_and_terminal():
