@@ -130,13 +130,12 @@ def within_budget(plan: Plan, work: Work, pilots: dict[str, tuple[float, float]]
 def _number(plan: Plan, variant: Variant, base: float, each: float) -> int:
     budget = variant.budget or 0.0
     number = max(1, round((budget - base) / each))
-    if number == 1:
-        if base + each > 1.1 * budget:
-            what = " ".join(variant.values.values())
-            unit = "rays per pixel" if plan.budget == "rays" else "s"
-            raise OptionError(
-                f"budget of {budget:g} {unit}: {what} needs at least {base + each:.3g} for one ray of each kind"
-            )
+    if number == 1 and base + each > 1.1 * budget:
+        what = " ".join(variant.values.values())
+        unit = "rays per pixel" if plan.budget == "rays" else "s"
+        raise OptionError(
+            f"budget of {budget:g} {unit}: {what} needs at least {base + each:.3g} for one ray of each kind"
+        )
     return number
 
 
