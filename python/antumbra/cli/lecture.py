@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 import time
+import traceback
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from types import TracebackType
@@ -52,13 +53,14 @@ def run(
         if not quiet:
             print(_plan(lecture, lecture.waiting()), file=sys.stderr, flush=True)
         with _Bar(quiet) as bar:
-            lecture.run(bar.step, lambda result: None if quiet else bar.say(_line(result)))
+            failed = _Failed(bar, verbose)
+            lecture.run(bar.step, lambda result: None if quiet else bar.say(_line(result)), failed)
     except KeyboardInterrupt:
         return _stopped(lecture, output)
     except OSError as problem:
         return _unwritten(lecture, output, problem)
     print(_ending(lecture, output, time.monotonic() - began))
-    return 0
+    return OURS if failed.names else 0
 
 
 VERB = Verb(
@@ -142,10 +144,27 @@ class _Bar:
             print(line, file=sys.stderr, flush=True)
 
 
+class _Failed:
+    """Says which figures raised and what, each in a line (`verbose`: with the whole chain)."""
+
+    def __init__(self, bar: _Bar, verbose: bool) -> None:
+        self._bar, self._verbose = bar, verbose
+        self.names: list[str] = []
+
+    def __call__(self, name: str, problem: Exception) -> None:
+        self.names.append(name)
+        what = " ".join(f"{type(problem).__name__}: {problem}".split())
+        self._bar.say(f"error: {name} failed and is left out ({what})")
+        if self._verbose:
+            self._bar.say("".join(traceback.format_exception(problem)).rstrip())
+
+
 def _plan(lecture: Lecture, waiting: Sequence[str]) -> str:
     figures = [name for name in waiting if name in lecture.figures]
-    kept = len(lecture.figures) - len(figures)
+    kept, older = len(lecture.figures) - len(figures), sum(lecture.kept(name) is not None for name in figures)
     parts = [_say.some(len(lecture.figures), "figure"), *([f"{kept} of them finished"] if kept else [])]
+    if older:
+        parts.append(f"{older} made by older code, to be replaced")
     if waiting:
         parts.append(f"about {_about(lecture.seconds(waiting))} on two cores")
     return "  lecture · " + " · ".join(parts)
@@ -174,7 +193,7 @@ def _verdicts(results: Sequence[Mapping[str, Any]]) -> str:
 
 
 def _results(lecture: Lecture) -> list[Mapping[str, Any]]:
-    return [found for name in lecture.figures if (found := lecture.folder.kept(name))]
+    return [found for name in lecture.figures if (found := lecture.kept(name))]
 
 
 def _ending(lecture: Lecture, output: str, seconds: float) -> str:

@@ -8,18 +8,29 @@ import os
 import re
 import shutil
 import tempfile
-from collections.abc import Iterator, Mapping
+import time
+from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 from antumbra._made_by import made_by
 from antumbra.lecture import catalog
+from antumbra.lecture.believed import is_record
 
 # Another number where what is kept gets another form.
-FORM = 2
-# Where a figure's files lie: a plain name in one of two folders. A folder from somebody else may say anything.
-_PLACE = re.compile(r"(pictures|exr)/[^./\\:\0][^/\\:\0]*")
+FORM = 3
+# What is being made, and what is made and on its way to its places.
+_UNFINISHED, _FINISHED = ".unfinished-", ".finished-"
+# After so many seconds [s] without a change, what is unfinished belongs to nobody any more.
+_LEFT = 3600.0
+_NAME = re.compile(r"[a-z0-9-]+")
+_EDITION = re.compile(r"(\.quick)?(\.seed-[1-9][0-9]*)?")
+
+
+def edition(quick: bool, seed: int) -> str:
+    """What stands after a figure's name in its files: figures of another size or seed lie beside each other."""
+    return (".quick" if quick else "") + (f".seed-{seed}" if seed else "")
 
 
 def key(name: str, quick: bool, seed: int) -> str:
@@ -36,23 +47,59 @@ class Folder:
         self.path = path
 
     def check(self, room: int) -> None:
-        """Raises OSError if nothing can be written there, or if there are less than `room` free bytes."""
+        """Raises OSError if nothing can be written there, or if there are less than `room` free bytes.
+
+        What an ended run left is brought to its places, or cleaned away if it was not finished.
+        """
         self.path.mkdir(parents=True, exist_ok=True)
+        self.tidy()
         with tempfile.TemporaryFile(dir=self.path):
             pass
         if shutil.disk_usage(self.path).free < room:
             raise OSError(28, f"less than {room // 1_000_000} MB are free")
 
-    def kept(self, name: str, key: str = "") -> dict[str, Any] | None:
-        """What a figure found, if it is finished and its files are still there (and of this key, if one is given)."""
+    def tidy(self) -> None:
+        """Brings what is finished to its places; takes away what was left unfinished an hour ago or more."""
+        for made in self.path.glob(f"{_FINISHED}*"):
+            self._settle(made)
+        for left in (
+            *self.path.glob(f"{_UNFINISHED}*"),
+            *self.path.glob(".*.part"),
+            *self.path.glob("kept/.*.part"),
+        ):
+            if time.time() - max(p.lstat().st_mtime for p in (left, *left.rglob("*"))) < _LEFT:
+                continue
+            if left.is_dir() and not left.is_symlink():
+                shutil.rmtree(left, ignore_errors=True)
+            else:
+                left.unlink(missing_ok=True)
+
+    def kept(self, name: str, key: str = "", of: str = "") -> dict[str, Any] | None:
+        """What a figure found in an `edition`, if it is finished and its files are still there (and of this key, if
+        one is given).
+        """
+        found = self._record(self.path / "kept" / f"{name}{of}.json", name, of)
+        whole = found and all(map(self._is_own, found["files"]))
+        return found if found and whole and key in ("", found["key"]) else None
+
+    def best(self, name: str, of: str) -> dict[str, Any] | None:
+        """What a figure found in an edition, or else in another: full size first, then by seed."""
+        if mine := self.kept(name, of=of):
+            return mine
+        editions = [path.stem.removeprefix(name) for path in self.path.glob(f"kept/{name}*.json")]
+        others = [
+            found for each in editions if _EDITION.fullmatch(each) and (found := self.kept(name, of=each))
+        ]
+        return min(others, key=lambda found: (found["quick"], found["seed"]), default=None)
+
+    def _record(self, path: Path, name: str, of: str) -> dict[str, Any] | None:
+        """What a file says, if it can be believed."""
         try:
-            found: dict[str, Any] = json.loads(
-                (self.path / "kept" / f"{name}.json").read_text(encoding="utf-8")
-            )
-        except (OSError, ValueError):
+            found: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"), parse_constant=_no_number)
+        except (OSError, ValueError, RecursionError):
             return None
-        whole = _is_record(found, name) and all(map(self._is_own, found["files"]))
-        return found if whole and key in ("", found["key"]) else None
+        right = is_record(found, name, FORM) and edition(found["quick"], found["seed"]) == of
+        return found if right else None
 
     def _is_own(self, file: str) -> bool:
         """Whether it is there, and within this folder also where a link leads."""
@@ -62,24 +109,45 @@ class Folder:
     @contextmanager
     def beside(self) -> Iterator[Path]:
         """A folder for what is not finished; it is gone afterwards."""
-        made = Path(tempfile.mkdtemp(prefix=".unfinished-", dir=self.path))
+        made = Path(tempfile.mkdtemp(prefix=_UNFINISHED, dir=self.path))
         try:
             yield made
         finally:
             shutil.rmtree(made, ignore_errors=True)
 
     def finish(self, beside: Path, result: dict[str, Any]) -> None:
-        """Moves the files of a figure to their places, then keeps what it found."""
-        name = result["name"]
-        before = self.kept(name)
-        # Without its record a figure counts as not finished, should this be cut short.
-        (self.path / "kept" / f"{name}.json").unlink(missing_ok=True)
-        for file in result["files"]:
-            (self.path / file).parent.mkdir(parents=True, exist_ok=True)
-            (beside / file).replace(self.path / file)
-        for file in set(before["files"] if before else ()) - set(result["files"]):
-            (self.path / file).unlink(missing_ok=True)
-        self.write(f"kept/{name}.json", json.dumps({**result, "form": FORM}, ensure_ascii=False))
+        """Keeps what a figure found, then moves its files to their places.
+
+        All that can fail comes first: the record is written among the files, and one renaming says that they are
+        finished. If the rest is cut short, `tidy` does it at the next start. Raises ValueError for a number that is
+        none.
+        """
+        text = json.dumps({**result, "form": FORM}, ensure_ascii=False, allow_nan=False)
+        (beside / "record.json").write_text(text, encoding="utf-8")
+        made = beside.with_name(_FINISHED + beside.name.removeprefix(_UNFINISHED))
+        beside.rename(made)
+        self._settle(made)
+
+    def _settle(self, made: Path) -> None:
+        """Moves a finished figure to its places by renaming alone, its record last; may be repeated at any point."""
+        try:
+            said = json.loads((made / "record.json").read_text(encoding="utf-8"))
+            name, of = str(said["name"]), edition(said["quick"], said["seed"])
+        except (OSError, ValueError, TypeError, KeyError):
+            said = None
+        new = said and self._record(made / "record.json", name, of)
+        if new and _NAME.fullmatch(name) and not made.is_symlink():
+            before = self.kept(name, of=of)
+            for file in new["files"]:
+                (self.path / file).parent.mkdir(parents=True, exist_ok=True)
+                if (made / file).is_file():
+                    (made / file).replace(self.path / file)
+            record = self.path / "kept" / f"{name}{of}.json"
+            record.parent.mkdir(exist_ok=True)
+            (made / "record.json").replace(record)
+            for file in set(before["files"] if before else ()) - set(new["files"]):
+                (self.path / file).unlink(missing_ok=True)
+        shutil.rmtree(made, ignore_errors=True)
 
     def write(self, file: str, text: str) -> None:
         """Writes a file whole or not at all."""
@@ -96,25 +164,8 @@ class Folder:
             raise
 
 
-def _is_record(found: Any, name: str) -> bool:
-    """Whether it is what `finish` writes of this figure: all files in their places, its pictures among them."""
-    if not isinstance(found, dict) or (found.get("form"), found.get("name")) != (FORM, name):
-        return False
-    files = found.get("files")
-    if not isinstance(files, list) or not all(isinstance(f, str) and _PLACE.fullmatch(f) for f in files):
-        return False
-    return isinstance(found.get("key"), str) and not [f for f in _shown(found.get("stage")) if f not in files]
-
-
-def _shown(part: Any) -> Iterator[Any]:
-    """The files that a stage names, however deep."""
-    if isinstance(part, Mapping):
-        if "file" in part:
-            yield part["file"]
-        part = list(part.values())
-    if isinstance(part, list):
-        for inner in part:
-            yield from _shown(inner)
+def _no_number(word: str) -> float:
+    raise ValueError(f"{word} is no number")
 
 
 def _umask() -> int:

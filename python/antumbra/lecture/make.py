@@ -13,7 +13,7 @@ from antumbra import __version__
 from antumbra.lecture import catalog, page
 from antumbra.lecture.chapters import CHAPTERS
 from antumbra.lecture.figure import Chapter, Figure, Pick
-from antumbra.lecture.keep import Folder, key
+from antumbra.lecture.keep import Folder, edition, key
 from antumbra.lecture.quantity import Quantity
 from antumbra.lecture.run import Report, Run
 from antumbra.lecture.stages import Picture, plain
@@ -55,6 +55,7 @@ class Lecture:
         """Nothing runs yet."""
         self.folder, self.figures = Folder(folder), figures
         self.quick, self.seed, self.single = quick, seed, single
+        self.edition = edition(quick, seed)
         self._stated_seconds = self._took = 0.0
 
     # ---- what there is to do ----
@@ -67,11 +68,15 @@ class Lecture:
         self._stated_seconds = self._took = 0.0
         found = []
         for name in (*openings, *self.figures):
-            if kept := self.folder.kept(name, self._key(name)):
+            if kept := self.folder.kept(name, self._key(name), self.edition):
                 self._learn(name, kept)
             else:
                 found.append(name)
         return found
+
+    def kept(self, name: str) -> dict[str, Any] | None:
+        """What a figure found at this size and seed, with the sources of now or older ones."""
+        return self.folder.kept(name, of=self.edition)
 
     def seconds(self, names: Sequence[str]) -> float:
         """How long these will take: what is stated on two cores, at the pace that finished figures had here."""
@@ -98,11 +103,22 @@ class Lecture:
         self,
         step: Callable[[Step], object] = lambda at: None,
         finished: Callable[[Mapping[str, Any]], object] = lambda result: None,
+        failed: Callable[[str, Exception], object] | None = None,
     ) -> None:
-        """Runs what is waiting, in order; after each the page is written anew. `finished` gets what a figure found."""
+        """Runs what is waiting, in order; after each the page is written anew. `finished` gets what a figure found.
+
+        `failed` gets the name of a figure that raised and what it raised, and the others go on; without it, nor where
+        a file cannot be written, they do not.
+        """
         waiting = self.waiting()
         for n, name in enumerate(waiting):
-            result = self._one(name, self._reporter(step, waiting, n))
+            try:
+                result = self._one(name, self._reporter(step, waiting, n))
+            except Exception as problem:
+                if failed is None or isinstance(problem, OSError):
+                    raise
+                failed(name, problem)
+                continue
             self._learn(name, result)
             self.write(single=False)
             finished(result)
@@ -128,24 +144,32 @@ class Lecture:
                 result = examine(self.figures[name], run)
             else:
                 result = open_chapter(next(c for c in CHAPTERS if _opening(c) == name), run)
-            result |= {"key": key_of_it, "seconds": time.perf_counter() - began}
+            seconds = time.perf_counter() - began
+            result |= {"key": key_of_it, "antumbra": __version__, "seconds": seconds}
             self.folder.finish(beside, result)
         return result
 
     # ---- the page ----
 
     def write(self, *, single: bool | None = None) -> None:
-        """Writes index.html and lecture.json with everything that is finished in the folder."""
-        found = [result for name in catalog.ordered() if (result := self.folder.kept(name))]
+        """Writes index.html and lecture.json with everything that is finished in the folder.
+
+        Of this lecture's size and seed where it is there, else of another; what older sources made is marked.
+        """
+        found = [
+            {**result, "older": result["key"] != key(name, result["quick"], result["seed"])}
+            for name in catalog.ordered()
+            if (result := self.folder.best(name, self.edition))
+        ]
         chapters = []
         for chapter in CHAPTERS:
             inside = [result for result in found if result["chapter"] == chapter.number]
-            opening = self.folder.kept(_opening(chapter))
+            opening = self.folder.best(_opening(chapter), self.edition)
             if inside:
                 pictures = opening["stage"] if opening else []
                 chapters.append({**_words(chapter), "pictures": pictures, "figures": inside})
         data = {"antumbra": __version__, "figures": [_numbers(result) for result in found]}
-        self.folder.write("lecture.json", json.dumps(data, ensure_ascii=False, indent=1) + "\n")
+        self.folder.write("lecture.json", _json(data))
         contents, foot = self._contents(found), _foot(found)
         text = (
             page.single(chapters, contents, data, foot, self.folder.path)
@@ -221,7 +245,18 @@ def open_chapter(chapter: Chapter, run: Run) -> dict[str, Any]:
     stage: list[Picture] = [
         run.picture(variant.key, alt, caption, white=white) for variant, alt, caption in chapter.pictures
     ]
-    return {"name": run.name, "stage": plain(stage), "rays": run.rays, "files": run.files}
+    return {
+        "name": run.name,
+        "stage": plain(stage),
+        "quick": run.quick,
+        "seed": run.seed,
+        "rays": run.rays,
+        "files": run.files,
+    }
+
+
+def _json(data: Any) -> str:
+    return json.dumps(data, ensure_ascii=False, allow_nan=False, indent=1) + "\n"
 
 
 def _answer(figure: Figure, measured: Mapping[str, Quantity]) -> dict[str, str]:
@@ -263,6 +298,9 @@ def _numbers(result: Mapping[str, Any]) -> dict[str, Any]:
         "seconds",
         "rays",
         "exr",
+        "antumbra",
+        "key",
+        "older",
     )
     return {name: result[name] for name in kept}
 

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from antumbra import _core
 from antumbra.lecture import bars, pictures
+from antumbra.lecture.keep import edition
 from antumbra.lecture.quantity import written
 from antumbra.lecture.stages import Bar, Picture
 from antumbra.lecture.variant import Pick, Variant
@@ -43,6 +44,8 @@ class Run:
         self.name, self.folder, self.quick, self.seed, self.report = name, folder, quick, seed, report
         self.files: list[str] = []
         self.rays = 0
+        # What its files begin with.
+        self._stem = name + edition(quick, seed)
         self._images: dict[str, list[Image]] = {}
         self._scenes: dict[Callable[[], Scene], Scene] = {}
         self._once: dict[Any, Any] = {}
@@ -215,7 +218,7 @@ class Run:
 
     def exr(self, source: str | ArrayLike, name: str = "") -> None:
         """Keeps full numbers beside the page: a variant with all its layers, or an array (H, W, 3) or (H, W)."""
-        file = f"exr/{self.name}{'-' if name else ''}{name}.exr"
+        file = f"exr/{self._stem}{'-' if name else ''}{name}.exr"
         self._path(file)
         if isinstance(source, str):
             self.image(source).save(self.folder / file)
@@ -234,7 +237,7 @@ class Run:
         noise: bool,
         bar: Bar | None = None,
     ) -> Picture:
-        file = f"pictures/{self.name}{'-' if name else ''}{name}.png"
+        file = f"pictures/{self._stem}{'-' if name else ''}{name}.png"
         self._path(file).write_bytes(png)
         height, width = np.shape(shown)[:2]
         return Picture(file, width, height, alt, caption, noise, bar)

@@ -21,7 +21,7 @@ def folder(tmp_path_factory):
 def test_a_figure_runs_and_its_main_claim_holds(name, folder):
     lecture = Lecture(folder, {name: catalog.figure(name)}, quick=True)
     lecture.run()
-    result = lecture.folder.kept(name)
+    result = lecture.kept(name)
     assert result and result["exr"], "full numbers are kept"
     main = next(claim for claim in result["claims"] if claim["main"])
     assert main["verdict"] == "supported", main
@@ -62,7 +62,7 @@ OUTSIDE = """() => [...document.querySelectorAll('.fig.cur *')].filter(e => {
 
 @pytest.mark.parametrize("name", catalog.names())
 def test_a_figure_fits_its_page_and_its_slides(name, folder, browser):
-    found = json.loads((folder / "kept" / f"{name}.json").read_text(encoding="utf-8"))
+    found = json.loads((folder / "kept" / f"{name}.quick.json").read_text(encoding="utf-8"))
     page = (folder / "index.html").as_uri()
     for width, height in ((390, 844), (820, 1100), (1280, 720)):
         tab = browser.new_page(viewport={"width": width, "height": height})

@@ -196,6 +196,6 @@ def test_style_and_script_are_small():
 
 def test_kept_results_make_the_same_page(made):
     before = (made / "index.html").read_text()
-    assert Folder(made).kept("one")
+    assert Folder(made).kept("one", of=".quick")
     Lecture(made, {}, quick=True).write()
     assert (made / "index.html").read_text() == before

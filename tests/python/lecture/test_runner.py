@@ -14,6 +14,7 @@ import pytest
 
 from antumbra import _made_by
 from antumbra.lecture import catalog, keep, make
+from antumbra.lecture.believed import only_draws
 from antumbra.lecture.figure import Figure
 
 
@@ -32,7 +33,7 @@ def test_a_lecture_is_a_page_with_its_pictures_and_numbers(two_figures, antumbra
     one = found["figures"][0]
     assert one["numbers"]["mean"]["error"] > 0
     assert [c["verdict"] for c in one["claims"]] == ["supported", "not supported"]
-    assert {"pictures/one-a.png", "exr/one.exr", "pictures/chapter-1-on.png"} <= files(out)
+    assert {"pictures/one.quick-a.png", "exr/one.quick.exr", "pictures/chapter-1.quick-on.png"} <= files(out)
     assert not [p for p in out.iterdir() if p.name.startswith(".")]
     page = (out / "index.html").read_text()
     assert "It is &lt;large&gt;." in page and 'class="xx"' in page
@@ -54,7 +55,7 @@ def test_what_is_finished_is_not_rendered_again(two_figures, antumbra, monkeypat
 
 def test_the_time_left_goes_by_what_finished_figures_took(two_figures, antumbra, tmp_path):
     assert antumbra("lecture", "--quick", "one", "-o", "out").code == 0
-    record = tmp_path / "out/kept/one.json"
+    record = tmp_path / "out/kept/one.quick.json"
     stated = two_figures["two"].seconds.quick
     for slow in (1, 40):
         took = json.loads(record.read_text()) | {"seconds": slow * stated}
@@ -160,10 +161,10 @@ def test_a_changed_source_or_a_lost_picture_is_made_anew(two_figures, antumbra, 
     assert antumbra("lecture", "--quick", "one", "-o", "out").code == 0
     folder = keep.Folder(tmp_path / "out")
     key = keep.key("one", True, 0)
-    assert folder.kept("one", key)
+    assert folder.kept("one", key, ".quick")
     assert key != keep.key("one", False, 0) != keep.key("one", False, 1)
-    (tmp_path / "out/pictures/one-a.png").unlink()
-    assert folder.kept("one", key) is None
+    (tmp_path / "out/pictures/one.quick-a.png").unlink()
+    assert folder.kept("one", key, ".quick") is None
 
 
 @pytest.mark.parametrize("cut", ["", "{", '{"form": 0}'])
@@ -181,6 +182,125 @@ def test_the_figure_of_the_guide_is_one():
     assert isinstance(made["FIGURE"], Figure)
 
 
+def test_full_figures_survive_coarse_ones_and_other_seeds(two_figures, antumbra, tmp_path):
+    for options in ((), ("--quick",), ("--seed", "1"), ("--quick", "--seed", "1")):
+        assert antumbra("lecture", "one", *options, "-o", "out").code == 0
+    again = antumbra("lecture", "one", "-o", "out")
+    assert "1 of them finished" in again.err
+    folder, editions = keep.Folder(tmp_path / "out"), ("", ".quick", ".seed-1", ".quick.seed-1")
+    assert all(folder.kept("one", of=each) for each in editions)
+    said = json.loads((tmp_path / "out/lecture.json").read_text())["figures"][0]
+    assert (said["quick"], said["seed"]) == (False, 0), "the page shows what was asked for"
+    assert folder.best("one", ".seed-2")["files"] == folder.kept("one")["files"], (
+        "else the full size, the first seed"
+    )
+
+
+class Cut(BaseException):
+    """As hard an end as Ctrl-C."""
+
+
+@pytest.mark.parametrize("last", range(8))
+@pytest.mark.parametrize("end", [Cut, OSError])
+def test_a_figure_cut_short_while_it_is_kept_is_old_or_new_but_never_lost(tmp_path, monkeypatch, last, end):
+    folder, seen = keep.Folder(tmp_path), 0
+
+    def result(name, key, *files):
+        return RECORD | {"name": name, "key": key, "files": [f"pictures/{file}" for file in files]}
+
+    def made(text, *files):
+        with folder.beside() as beside:
+            (beside / "pictures").mkdir()
+            for file in files:
+                (beside / "pictures" / file).write_text(text)
+            folder.finish(beside, result("one", text, *files))
+
+    made("old", "a", "b")
+
+    def cut(of):
+        def once(self, *arguments, **options):
+            nonlocal seen
+            seen += 1
+            if seen > last:
+                raise end
+            return of(self, *arguments, **options)
+
+        return once
+
+    with monkeypatch.context() as patch:
+        for method in ("write_text", "rename", "replace", "unlink"):
+            patch.setattr(Path, method, cut(getattr(Path, method)))
+        with pytest.raises(end):
+            made("new", "a", "c")
+    folder.tidy()
+    kept = folder.kept("one")
+    assert kept["key"] in ("old", "new")
+    assert all((tmp_path / file).read_text() == kept["key"] for file in kept["files"])
+    assert not [p for p in tmp_path.iterdir() if p.name.startswith(".")]
+
+
+def test_what_an_ended_run_left_is_cleaned_away_at_the_start(two_figures, antumbra, tmp_path):
+    out = tmp_path / "out"
+    (out / "kept").mkdir(parents=True)
+    for left in (".unfinished-old", ".unfinished-new"):
+        (out / left).mkdir()
+    (out / "kept/.a.part").write_text("")
+    for left in (".unfinished-old", "kept/.a.part"):
+        os.utime(out / left, (0, 0))
+    assert antumbra("lecture", "one", "--quick", "-o", "out").code == 0
+    left = [p.name for p in [*out.iterdir(), *(out / "kept").iterdir()] if p.name.startswith(".")]
+    assert left == [".unfinished-new"], "it may be another run's of this hour"
+
+
+def test_a_figure_that_fails_is_said_and_the_others_go_on(two_figures, antumbra, tmp_path, monkeypatch):
+    examine = make.examine
+
+    def broken(figure, run):
+        if run.name == "one":
+            raise ValueError("no\nlight")
+        return examine(figure, run)
+
+    monkeypatch.setattr(make, "examine", broken)
+    for _ in range(2):
+        ended = antumbra("lecture", "--quick", "-o", "out")
+        assert ended.code == 1
+        assert ended.err.splitlines().count("error: one failed and is left out (ValueError: no light)") == 1
+        assert 'id="two"' in (tmp_path / "out/index.html").read_text()
+
+
+def test_a_number_that_is_none_is_a_failure_of_its_figure(two_figures, antumbra, monkeypatch):
+    examine = make.examine
+    nan = {"numbers": {"mean": {"value": float("nan")}}}
+    monkeypatch.setattr(make, "examine", lambda f, run: examine(f, run) | (nan if run.name == "one" else {}))
+    ended = antumbra("lecture", "--quick", "-o", "out")
+    assert ended.code == 1 and "error: one failed and is left out (ValueError: " in ended.err
+
+
+def test_what_older_code_made_is_marked_until_it_is_made_anew(two_figures, antumbra, tmp_path):
+    assert antumbra("lecture", "--quick", "-o", "out").code == 0
+    record = tmp_path / "out/kept/one.quick.json"
+    record.write_text(json.dumps(json.loads(record.read_text()) | {"key": "older"}))
+    make.Lecture(tmp_path / "out", two_figures, quick=True).write()
+    found = json.loads((tmp_path / "out/lecture.json").read_text())["figures"]
+    assert [(f["name"], f["older"]) for f in found] == [("one", True), ("two", False)]
+    assert (tmp_path / "out/index.html").read_text().count("Made by older code") == 1
+    again = antumbra("lecture", "--quick", "-o", "out")
+    assert "1 made by older code, to be replaced" in again.err.splitlines()[0]
+    assert "Made by older code" not in (tmp_path / "out/index.html").read_text()
+
+
+# What stands in every record of a figure.
+RECORD = {
+    "form": keep.FORM, "name": "one", "key": "0", "antumbra": "0", "quick": False, "seed": 0, "seconds": 1.0, "rays": 0,
+    "files": [], "stage": [], "number": 1, "chapter": 1, "title": "", "question": {}, "answer": {}, "equation": {},
+    "claims": [], "numbers": {}, "command": "", "exr": [],
+}  # fmt: skip
+
+
+def drawn(svg):
+    return {"stage": [{"kind": "drawing", "svg": svg}]}
+
+
 HOSTILE = [
     {"files": ["../../theirs.txt"]},
     {"files": ["pictures/../../theirs.txt"]},
@@ -193,6 +313,19 @@ HOSTILE = [
     {"stage": [{"kind": "row", "cells": [{"kind": "picture", "file": "../theirs.txt"}]}]},
     {"name": "two"},
     {"key": None},
+    {"seconds": None},
+    {"seconds": float("nan")},
+    {"claims": None},
+    {"claims": [{"text": "It is."}]},
+    {"numbers": None},
+    {"exr": ["../theirs.txt"]},
+    {"seed": "/../../theirs"},
+    drawn("<script>alert(1)</script>"),
+    drawn('<g onload="alert(1)"/>'),
+    drawn('</svg><img src="x"/><svg>'),
+    drawn('<path style="fill:url(https://example.org)"/>'),
+    drawn("<!-- --><g/>"),
+    {"stage": [{"kind": "plot", "drawing": "<svg><a href='javascript:alert(1)'/></svg>"}]},
 ]
 
 
@@ -205,13 +338,21 @@ def test_a_record_that_names_other_files_than_a_figure_s_own_is_not_believed(tmp
     (out / "kept/two.json").write_text("{}")
     (out / "pictures/link.png").symlink_to(theirs)
     (out / "new/pictures/one.png").write_text("new")
-    record = {"form": keep.FORM, "name": "one", "key": "0", "files": [], "stage": []} | said
+    record = RECORD | said
     (out / "kept/one.json").write_text(json.dumps(record))
     folder = keep.Folder(out)
     assert folder.kept("one") is None
-    folder.finish(out / "new", {"name": "one", "key": "1", "files": ["pictures/one.png"], "stage": []})
+    folder.finish(out / "new", RECORD | {"key": "1", "files": ["pictures/one.png"]})
     assert theirs.read_text() == "precious" and (out / "kept/two.json").exists()
     assert folder.kept("one", "1")
+
+
+def test_the_drawings_of_the_lecture_only_draw():
+    for svg in (
+        '<g class="rg1" data-j="0"><path class="ray f" d="M0 0L9 9"/></g><text x="1" y="2">a &lt; b</text>',
+        "",
+    ):
+        assert only_draws(svg)
 
 
 def test_the_key_is_of_everything_that_computes_a_figure(monkeypatch, tmp_path):

@@ -86,8 +86,8 @@ def _render(
         "scales": scales,
         "single": single,
     }
-    # `</` would end the script element that holds the numbers.
-    numbers = Markup(json.dumps(data, ensure_ascii=False).replace("</", "<\\/"))
+    # Nothing in the numbers can end the script element that holds them, or begin a comment in it.
+    numbers = Markup(json.dumps(data, ensure_ascii=False, allow_nan=False).replace("<", "\\u003c"))
     return templates.get_template("index.html").render(
         version=__version__,
         head=HEAD,
