@@ -17,6 +17,7 @@ from typing import Any
 from antumbra._made_by import made_by
 from antumbra.lecture import catalog
 from antumbra.lecture.believed import is_record
+from antumbra.lecture.variant import edition
 
 # Another number where what is kept gets another form.
 FORM = 3
@@ -26,11 +27,6 @@ _UNFINISHED, _FINISHED = ".unfinished-", ".finished-"
 _LEFT = 3600.0
 _NAME = re.compile(r"[a-z0-9-]+")
 _EDITION = re.compile(r"(\.quick)?(\.seed-[1-9][0-9]*)?")
-
-
-def edition(quick: bool, seed: int) -> str:
-    """What stands after a figure's name in its files: figures of another size or seed lie beside each other."""
-    return (".quick" if quick else "") + (f".seed-{seed}" if seed else "")
 
 
 def key(name: str, quick: bool, seed: int) -> str:

@@ -13,10 +13,11 @@ from antumbra import __version__
 from antumbra.lecture import catalog, page
 from antumbra.lecture.chapters import CHAPTERS
 from antumbra.lecture.figure import Chapter, Figure, Pick
-from antumbra.lecture.keep import Folder, edition, key
+from antumbra.lecture.keep import Folder, key
 from antumbra.lecture.quantity import Quantity
 from antumbra.lecture.run import Report, Run
 from antumbra.lecture.stages import Picture, plain
+from antumbra.lecture.variant import edition
 from antumbra.lecture.verdict import verdict
 
 # What the two pictures of a chapter's opening take.

@@ -11,10 +11,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from antumbra import _core
 from antumbra.lecture import bars, pictures
-from antumbra.lecture.keep import edition
 from antumbra.lecture.quantity import written
 from antumbra.lecture.stages import Bar, Picture
-from antumbra.lecture.variant import Pick, Variant
+from antumbra.lecture.variant import Pick, Variant, edition
 
 if TYPE_CHECKING:
     from antumbra.image import Image

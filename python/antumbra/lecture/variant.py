@@ -17,6 +17,11 @@ class Pick(NamedTuple):
     full: Any
 
 
+def edition(quick: bool, seed: int) -> str:
+    """What stands after a figure's name in its files: figures of another size or seed lie beside each other."""
+    return (".quick" if quick else "") + (f".seed-{seed}" if seed else "")
+
+
 @dataclass(frozen=True)
 class Variant:
     """One picture of a figure: a scene and ordinary options of `Scene.render`.
