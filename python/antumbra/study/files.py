@@ -1,10 +1,15 @@
-"""The folder of a study: results.csv, results.json, index.html, each whole or not at all."""
+"""The folder of a study: results.csv, results.json, index.html, each whole or not at all.
+
+Those of another study that lay there are moved into a folder `earlier-…` of it, named by their content.
+"""
 
 from __future__ import annotations
 
+import hashlib
 import json
 import math
 import os
+from collections.abc import Container
 from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -15,6 +20,7 @@ from antumbra.study.rows import Row
 if TYPE_CHECKING:
     from antumbra.study.result import Study
 
+_EARLIER = "earlier-"
 NAMES = ("results.csv", "results.json", "index.html")
 
 
@@ -45,9 +51,48 @@ def write(study: Study, folder: Path) -> None:
         _replace(folder / name, text)
 
 
+def set_aside(folder: Path, study: Study, keys: Container[str]) -> Path | None:
+    """Moves what lies in the folder out of the way, unless it is this study or a part of it; says where it is then.
+
+    `keys`: which rows this study will have, as `key_of` has them.
+    """
+    there = [folder / name for name in NAMES if (folder / name).is_file()]
+    if not there or _is_part(folder / "results.json", study, keys):
+        return None
+    seen = hashlib.sha256(b"".join(file.read_bytes() for file in there)).hexdigest()[:8]
+    aside = folder / f"{_EARLIER}{seen}"
+    aside.mkdir(exist_ok=True)
+    for file in there:
+        file.replace(aside / file.name)
+    return aside
+
+
+def _is_part(file: Path, study: Study, keys: Container[str]) -> bool:
+    try:
+        found = json.loads(file.read_text(encoding="utf-8"))
+        alike = all(
+            found[name] == getattr(study, name) for name in ("fingerprint", "scene", "fixed", "seeds")
+        )
+        return alike and all(key_of(Row.of_json(row)) in keys for row in found["rows"])
+    except (OSError, ValueError, KeyError, TypeError):
+        return False
+
+
+def key_of(row: Row) -> str:
+    """Which variant a row is of."""
+    return json.dumps([row.values, row.budget], sort_keys=True)
+
+
 def finished_rows(folder: Path, fingerprint: str) -> list[Row]:
-    """Rows that an earlier run of the same study left in the folder."""
-    file = folder / "results.json"
+    """Rows that earlier runs of the same study left in the folder, also where they were moved aside."""
+    return [row for file in _results(folder) for row in _rows(file, fingerprint)]
+
+
+def _results(folder: Path) -> list[Path]:
+    return [folder / "results.json", *sorted(folder.glob(f"{_EARLIER}*/results.json"))]
+
+
+def _rows(file: Path, fingerprint: str) -> list[Row]:
     if not fingerprint or not file.is_file():
         return []
     try:
@@ -56,14 +101,18 @@ def finished_rows(folder: Path, fingerprint: str) -> list[Row]:
             return []
         return [Row.of_json(row) for row in found["rows"]]
     except (ValueError, KeyError, TypeError):
-        # Somebody else's file: it is replaced when the study is done.
+        # Somebody else's file: it is moved aside.
         return []
 
 
 def kept_pilots(folder: Path, asked: str) -> dict[str, Any]:
     """What the pilots of an earlier run of the same study found; without one, nothing."""
+    return next(filter(None, (_pilots(file, asked) for file in _results(folder))), {})
+
+
+def _pilots(file: Path, asked: str) -> dict[str, Any]:
     try:
-        found = json.loads((folder / "results.json").read_text(encoding="utf-8"))["pilots"]
+        found = json.loads(file.read_text(encoding="utf-8"))["pilots"]
         costs = {str(key): (float(base), float(each)) for key, (base, each) in found["costs"].items()}
         if not asked or found["asked"] != asked or not all(map(math.isfinite, chain(*costs.values()))):
             return {}

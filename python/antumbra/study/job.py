@@ -17,7 +17,7 @@ from antumbra._made_by import ROOT, made_by
 from antumbra.errors import OptionError
 from antumbra.study import kinds, renders
 from antumbra.study.content import content
-from antumbra.study.files import check_folder, finished_rows, keep, kept_pilots, write
+from antumbra.study.files import check_folder, finished_rows, keep, kept_pilots, key_of, set_aside, write
 from antumbra.study.plan import Plan, Variant
 from antumbra.study.renders import Step, Work
 from antumbra.study.result import Study
@@ -126,44 +126,59 @@ class Job:
         new = folder is not None and not folder.exists()
         if folder is not None:
             check_folder(folder)
-        rows: list[Row] = []
         asked = self._asked()
         self.pilots = {} if folder is None else kept_pilots(folder, asked)
         self.pilots = self.pilots or {"asked": asked, "costs": {}}
+        done: dict[str, Row] = {}
         try:
             self.plan = renders.within_budget(self.plan, self.work, self.pilots["costs"])
             if self.chooses:
                 self._choose_reference()
-            found = [] if folder is None else finished_rows(folder, self.fingerprint())
-            kept = {key_of(row): row for row in found}
-            for row in self._rows(kept):
-                rows.append(row)
+            done = self._finished(folder)
+            for row in self._rows(set(done)):
+                done[key_of(row)] = row
                 if folder is not None:
-                    keep(self._study(rows, False), folder)
+                    self._set_aside(folder)
+                    keep(self._study(done, False), folder)
         except KeyboardInterrupt:
-            study = self._study(rows, False)
-            if folder is not None and rows:
+            study = self._study(done, False)
+            if folder is not None and done:
+                self._set_aside(folder)
                 write(study, folder)
             elif folder is not None and new:
                 folder.rmdir()
             raise StudyStopped(study) from None
-        study = self._study(rows, True)
+        if folder is not None:
+            self._set_aside(folder)
+        study = self._study(done, True)
         if folder is not None:
             write(study, folder)
         return study
 
-    def _rows(self, kept: dict[str, Row]) -> Iterator[Row]:
+    def _finished(self, folder: Path | None) -> dict[str, Row]:
+        """Rows that need not be rendered again, by their keys; their places are those of this plan."""
+        rows = [] if folder is None else finished_rows(folder, self.fingerprint())
+        there = {key_of(row): row for row in reversed(rows)}
+        found = {}
+        for variant in self.plan.variants:
+            row = there.get(key := self._key(variant))
+            if row is not None:
+                n = self._n(variant, row.rays, row.seconds.value)
+                found[key] = replace(row, truth=self.truths.index(variant.truth()), n=n)
+        return found
+
+    def _set_aside(self, folder: Path) -> None:
+        keys = {self._key(v) for v in self.plan.variants}
+        if (aside := set_aside(folder, self._study({}, False), keys)) is not None:
+            self.warnings.append(("note", "", f"{folder} held another study: it lies in {aside} now"))
+
+    def _rows(self, finished: set[str]) -> Iterator[Row]:
         words = renders.reference_words(self.plan, self.by, self.rays) if self.by else None
-        ahead = [v for v in self.plan.variants if self._key(v) not in kept]
+        ahead = [v for v in self.plan.variants if self._key(v) not in finished]
         self.work.plan(renders.cost(ahead, self.plan.seeds, words))
         for number, truth in enumerate(self.truths):
             reference = self.given
-            for variant in (v for v in self.plan.variants if v.truth() == truth):
-                if self._key(variant) in kept:
-                    row = kept[self._key(variant)]
-                    # Its place among the truths and on the axis are those of this plan.
-                    yield replace(row, truth=number, n=self._n(variant, row.rays, row.seconds.value))
-                    continue
+            for variant in (v for v in ahead if v.truth() == truth):
                 if words is not None and reference is None:
                     reference = renders.reference_by(variant, words, self.work)
                 yield self._row(variant, reference, number)
@@ -224,8 +239,9 @@ class Job:
         """Viewing rays of each seed of a rendered reference."""
         return renders.reference_words(self.plan, self.by, self.rays)["viewing_rays"] if self.by else ""
 
-    def _study(self, rows: list[Row], complete: bool) -> Study:
+    def _study(self, done: Mapping[str, Row], complete: bool) -> Study:
         plan = self.plan
+        rows = [done[key] for key in map(self._key, plan.variants) if key in done]
         name = renders.reference_name(self.by, self._reference_rays()) if self.by else ""
         return Study(
             scene=self.source.name,
@@ -235,7 +251,7 @@ class Job:
             varied=plan.varied,
             fixed=plan.fixed,
             reference=self.given.name if self.given else name,
-            rows=list(rows),
+            rows=rows,
             messages=[*self.warnings, *self.work.messages, *_about_reference(rows)],
             complete=complete,
             budget=plan.budget,
@@ -250,11 +266,6 @@ def _made(plan: Plan) -> list[str]:
     around = sorted({v.words["environment"] for v in plan.variants if "environment" in v.words})
     sources = sorted([*ROOT.glob("*.py"), *(ROOT / "study").rglob("*.py")])
     return [made_by(sources), *(content(Path(name)) for name in around if Path(name).is_file())]
-
-
-def key_of(row: Row) -> str:
-    """Which variant a row is of."""
-    return json.dumps([row.values, row.budget], sort_keys=True)
 
 
 def is_file(given: str) -> bool:

@@ -5,10 +5,13 @@ Also scenes of files whose parameters are varied.
 
 from __future__ import annotations
 
+import json
+
 import pytest
 
 import antumbra as am
 from antumbra import _made_by
+from antumbra.study import StudyStopped, renders
 from antumbra.study.content import content
 
 SMALL = {
@@ -134,3 +137,38 @@ def test_parameters_of_an_xml_scene_are_varied(tmp_path, antumbra):
     assert done.code == 0, done.err
     done = antumbra("study", "lit.xml", *words, "kind=diffuse", "--vary", "D.kind=1,2")
     assert done.code == 2 and "also given a fixed value" in done.err
+
+
+def test_a_grown_study_that_is_stopped_keeps_what_was_done_before(tmp_path, monkeypatch):
+    given = {**SMALL, "reference": "mis", "reference_rays": 64, "folder": tmp_path}
+    am.study.run("pillars", **{**given, "vary": {"shadow_rays": [3, 4]}})
+    real, calls = renders.Work.render, []
+
+    def stops(self, parameters, words, seed, what):
+        calls.append(what)
+        # After the first row: the reference of 8 and 3 seeds.
+        if len(calls) > 8 + 3:
+            raise KeyboardInterrupt
+        return real(self, parameters, words, seed, what)
+
+    monkeypatch.setattr(renders.Work, "render", stops)
+    with pytest.raises(StudyStopped) as stopped:
+        am.study.run("pillars", **{**given, "vary": {"shadow_rays": [1, 2, 3, 4]}})
+    rows = json.loads((tmp_path / "results.json").read_text("utf-8"))["rows"]
+    assert [row["n"] for row in rows] == [row.n for row in stopped.value.study.rows] == [1, 3, 4]
+    assert not list(tmp_path.glob("earlier-*"))
+
+
+def test_another_study_leaves_the_rows_of_the_first(tmp_path, monkeypatch):
+    given = {**SMALL, "reference": "mis", "reference_rays": 64, "folder": tmp_path}
+    first = am.study.run("pillars", **given)
+    page = (tmp_path / "index.html").read_text("utf-8")
+    others = ({"vary": {"sampler": ["random", "owen"]}}, {"viewing_rays": 2})
+    found = [am.study.run("pillars", **{**given, **other}) for other in others]
+    assert all(any("held another study" in text for _, _, text in each.messages) for each in found)
+    assert len(list(tmp_path.glob("earlier-*"))) == 2
+    assert page in [(aside / "index.html").read_text("utf-8") for aside in tmp_path.glob("earlier-*")]
+    # Asked for again, nothing is rendered.
+    monkeypatch.setattr(renders.Work, "render", lambda *_: pytest.fail("something was rendered"))
+    again = am.study.run("pillars", **given)
+    assert again.rows == first.rows
