@@ -64,8 +64,8 @@ FIGURE = Figure(
         "Where the pdf is 0 the light is lost: no noise says so."),
     equation=Equation([SUM_OF_PDF], "Marked: the density divides itself out wherever it is not 0, and there only."),
     claims=[
-        Claim("With a hole just the light of the hole is missing.", "hole", near="missing", within=0.02, main=True,
-              measured="{hole}; the left-out quarter alone gives {missing}"),
+        Claim("With a hole just the light of the hole is missing.", "gap", near=0.0, within=0.02, main=True,
+              measured="{hole}; the left-out quarter alone gives {missing}, the two differ by {gap}"),
         Claim("Toward the nearest point the mean stays right.", "nearest", near=0.0, within=0.02, measured="{nearest}"),
         Claim("The noise of the hole does not warn.", "noise-hole", below=1.05, measured="variance {noise-hole} of the uniform one"),
     ],

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Collection, Sequence
 
 import numpy as np
@@ -19,7 +20,8 @@ from antumbra.study import statistics
 def against(run: Run, names: Collection[str], other: str, strip: str) -> dict[str, Quantity]:
     """The mean of each variant less that of `other`, in % of it; noise-…: its variance over that of the first.
 
-    missing: what the light of the variant `strip` would take away.
+    missing: what the light of the variant `strip` would take away; gap: of the last variant, what is missing
+    less that, in % of `other`. All are over the same truth, so the gap is (mean + strip − truth) / truth as one.
     """
     truth, left_out = (mean_of(luminances(run, key).mean((1, 2))) for key in (other, strip))
     means = {name: mean_of(luminances(run, name).mean((1, 2))) for name in names}
@@ -29,7 +31,14 @@ def against(run: Run, names: Collection[str], other: str, strip: str) -> dict[st
         **{name: excess(ratio(mean, truth)) for name, mean in means.items()},
         **{f"noise-{name}": ratio(noise[name], uniform) for name in names},
         "missing": Quantity(-missing.value, missing.error, "%"),
+        "gap": _gap(list(means.values())[-1], left_out, truth),
     }
+
+
+def _gap(mean: Quantity, left_out: Quantity, truth: Quantity) -> Quantity:
+    """(mean + left out) / truth − 1 of three independent means."""
+    both = Quantity(mean.value + left_out.value, math.hypot(mean.error, left_out.error))
+    return excess(ratio(both, truth))
 
 
 def drawn(

@@ -18,8 +18,10 @@ Classes = dict[str, NDArray[np.float64]]
 
 
 def squares(run: Run, sizes: Sequence[float]) -> Classes:
-    """Variance of one ray over the unshadowed light squared: (K, sizes) for "lit" and "penumbra".
+    """Variance of one ray over the unshadowed light squared, as K numbers (K, sizes) for "lit" and "penumbra".
 
+    They are the jackknife's pseudo-values, whose t-interval is that of `statistics.variance`: those of
+    `variance_by_replicate` hang together through their mean, and theirs would be too narrow by (K − 2)/(K − 1).
     Of the variants one-`size`; truth-`size` has the layers visible-fraction and unshadowed-direct. Lit pixels see all
     of the light at every size, so that only the light changes; penumbra pixels between 5 and 95 % of it.
     """
@@ -31,7 +33,9 @@ def squares(run: Run, sizes: Sequence[float]) -> Classes:
     for s in sizes:
         one = luminances(run, f"one-{s}")
         for name, of in (("lit", lit), ("penumbra", bright[s] & (seen[s] > 0.05) & (seen[s] < 0.95))):
-            columns[name].append(statistics.variance_by_replicate(one[:, of] / unshadowed[s][of]))
+            each = statistics.variance_by_replicate(one[:, of] / unshadowed[s][of])
+            count = len(each)
+            columns[name].append(((count - 1) * each - each.mean()) / (count - 2))
     return {name: np.stack(each, axis=1) for name, each in columns.items()}
 
 

@@ -15,13 +15,24 @@ def luminances(run: Run, key: str) -> NDArray[np.float64]:
     return np.array([luminance(image.pixels) for image in run.images(key)])
 
 
+def of_lit_pixels(run: Run, key: str, reference: str) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Luminance of the replicates of a variant and of a reference, (K, N) and (R, N), where the reference has light."""
+    truth = luminances(run, reference)
+    lit = truth.mean(0) > 0
+    return luminances(run, key)[:, lit], truth[:, lit]
+
+
 def squared_errors(run: Run, key: str, reference: str) -> NDArray[np.float64]:
     """Mean squared error of luminance [W²·m⁻⁴·sr⁻²] of each replicate of a variant, (K,), against a reference variant.
 
     Only pixels that receive light count; the reference is the mean of its replicates, whose own noise is taken off.
+    By that a replicate that is as good as the reference may come below 0.
     """
-    truth = luminances(run, reference)
-    lit = truth.mean(0) > 0
-    own = truth[:, lit].var(0, ddof=1) / len(truth) if len(truth) > 1 else 0.0
-    each = luminances(run, key)[:, lit]
-    return statistics.squared_errors(each, truth[:, lit].mean(0), own)
+    each, truth = of_lit_pixels(run, key, reference)
+    own = truth.var(0, ddof=1) / len(truth) if len(truth) > 1 else 0.0
+    return statistics.squared_errors(each, truth.mean(0), own)
+
+
+def reference_half(run: Run, key: str, reference: str) -> float:
+    """Half of the interval of their mean that the reference's own noise gives, which all replicates share."""
+    return statistics.reference_half(*of_lit_pixels(run, key, reference))
