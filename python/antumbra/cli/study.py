@@ -157,6 +157,9 @@ def _told(found: Study, folder: Path) -> str:
     said = f"{_say.some(len(flagged), 'row')} of {len(found.rows)} biased" if flagged else "no bias found"
     if not found.tested():
         said = "bias was not tested"
+    elif not flagged and (hidden := found.untestable()):
+        size = f"below {100 * hidden:.0f} % of the mean" if hidden < 1 else "even as large as the mean"
+        said = f"a bias {size} was not testable"
     elif (share := 100 * found.untested()) >= 0.5:
         said += f", {share:.0f} % of the tiles not tested"
     return "\n".join(

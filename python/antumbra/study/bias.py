@@ -30,7 +30,8 @@ class Bias(NamedTuple):
     all tiles taken into account; NaN where nothing was tested); `difference`: mean of the picture less the
     reference's, with its 95 % interval; `tile`: (x, y, width, height) in pixels where it is clearest, None if that is
     the whole picture; `tested`: the share of tiles (the whole picture is one of them) that could be tested, 0 to 1, of
-    those that have light in either: 0 says that nothing is known.
+    those that have light in either: 0 says that nothing is known; `hidden`: a difference of the whole picture must be
+    larger than this to be flagged, with all tiles taken into account.
     """
 
     flagged: bool
@@ -38,6 +39,7 @@ class Bias(NamedTuple):
     difference: statistics.Interval
     tile: Box | None
     tested: float
+    hidden: float
 
 
 def bias(
@@ -75,10 +77,11 @@ def bias(
     lit = sum(gap.mean > 0 for gap in gaps)
     tests = {i: gap.p() for i, gap in enumerate(gaps) if gap.testable}
     if not tests:
-        return Bias(False, math.nan, gaps[0].interval(), None, 0.0)
+        return Bias(False, math.nan, gaps[0].interval(), None, 0.0, math.inf)
     best = min(tests, key=tests.__getitem__)
     p = min(1.0, tests[best] * len(gaps))
-    return Bias(p < alpha, p, gaps[0].interval(), places[best], len(tests) / lit)
+    hidden = gaps[0].least(alpha / len(gaps)) if gaps[0].testable else math.inf
+    return Bias(p < alpha, p, gaps[0].interval(), places[best], len(tests) / lit, hidden)
 
 
 class _Gap(NamedTuple):
@@ -104,6 +107,10 @@ class _Gap(NamedTuple):
         if self.error == 0:
             return 0.0 if abs(self.value) > 1e-6 * abs(self.mean) else 1.0
         return max(0.0, 1.0 - t_inside(abs(self.value) / self.error, self.dof))
+
+    def least(self, alpha: float) -> float:
+        """The difference whose two-sided p is alpha."""
+        return t_quantile(1 - alpha / 2, self.dof) * self.error if self.error else 0.0
 
     def interval(self) -> statistics.Interval:
         """The difference with its 95 % interval."""

@@ -15,7 +15,7 @@ import numpy as np
 from antumbra.study import statistics
 from antumbra.study.bias import Bias
 from antumbra.study.plot import Curve
-from antumbra.study.rows import Row, untested
+from antumbra.study.rows import Row, blunt, untested
 from antumbra.study.statistics import Interval
 
 
@@ -69,17 +69,16 @@ class Findings:
         """The share of tiles, of all rows with a reference, where bias could not be tested; 0 without a reference."""
         return untested(self.rows)
 
-    def error(self, row: Row) -> Interval | None:
-        """Root mean square error of a row: without bias, the standard deviation over seeds, which needs no reference.
+    def untestable(self) -> float:
+        """How large a bias may be that noise hides, as a part of the mean, where that is more than 5 %; else 0."""
+        return blunt(self.rows)
 
-        Where a bias was found in the row's curve, or seeds make no difference, it is taken against the reference.
-        """
-        if self._unbiased(self.curves()[self.name_of(row)]):
-            return statistics.root(row.variance)
+    def error(self, row: Row) -> Interval | None:
+        """Root mean square error (RMSE) of a row against the reference; None without one. `Row.noise` needs none."""
         return row.rmse
 
     def slope(self, name: str) -> Interval | None:
-        """Slope of log variance against log N of a curve: −1 for independent samples. Of the RMSE it is half of that.
+        """Slope of log variance against log N of a curve: −1 for independent samples. Of the noise it is half of that.
 
         None where it cannot be fitted: N is not a number of rays, or there is a bias, which more rays do not reduce.
         """
@@ -101,13 +100,17 @@ class Findings:
         return max(fit, key=lambda r: r.efficiency.value, default=None)
 
     def plot_curves(self, over: str = "axis") -> list[Curve]:
-        """For `plot.error_curves`: the error of each curve over the axis, or over "seconds"."""
+        """For `plot.error_curves`, over the axis or "seconds": marks are the RMSE, or without reference the noise.
+
+        The line is the power law of the noise.
+        """
         return [self._curve(name, rows, over) for name, rows in self.curves().items()]
 
     def _curve(self, name: str, rows: Sequence[Row], over: str) -> Curve:
         x = [r.seconds.value if over == "seconds" else r.n or 0.0 for r in rows]
         nothing = Interval(math.nan, math.nan, math.nan)
-        errors = [e if e and e.value > 0 else nothing for e in map(self.error, rows)]
+        known = [r.rmse if r.mse else r.noise for r in rows]
+        errors = [e if e and e.value > 0 else nothing for e in known]
         y, low, high = ([float(e[i]) for e in errors] for i in range(3))
         bars = (low, high) if all(r.noisy for r in rows) else ([], [])
         slope = self.slope(name) if over == "axis" else None
@@ -165,7 +168,7 @@ def flat(study: Findings, row: Row) -> dict[str, str | float]:
     line |= {name.replace("_", "-"): value for name, value in row.values.items()}
     line |= {} if row.budget is None else {"budget": row.budget}
     line |= {"viewing-rays": row.viewing_rays, "shadow-rays": row.shadow_rays, "rays-per-pixel": row.rays}
-    for name in ("seconds", "variance", "mse", "rmse", "efficiency"):
+    for name in ("seconds", "variance", "noise", "mse", "rmse", "efficiency"):
         found: Interval = getattr(row, name) or Interval(math.nan, math.nan, math.nan)
         line |= {name: found.value, f"{name}-low": found.low, f"{name}-high": found.high}
     line["reference-variance"] = row.reference_variance

@@ -21,11 +21,8 @@ from antumbra.study.files import check_folder, finished_rows, keep, kept_pilots,
 from antumbra.study.plan import Plan, Variant
 from antumbra.study.renders import Step, Work
 from antumbra.study.result import Study
-from antumbra.study.rows import Pictures, Reference, Row, measured, untested
+from antumbra.study.rows import Pictures, Reference, Row, blunt, measured, untested
 from antumbra.study.sources import Source
-
-# A test of bias whose interval is wider than this, as a part of the mean, is worth a note.
-_BLUNT = 0.05
 
 
 class StudyStopped(KeyboardInterrupt):
@@ -287,14 +284,8 @@ def _about_reference(rows: list[Row]) -> list[tuple[str, str, str]]:
     if (share := 100 * untested(rows)) >= 0.5:
         what = f"bias was not tested in {share:.0f} % of the tiles: too few samples found light there"
         found = [("note" if all(r.tested for r in tested) else "warning", "", what)]
-    shares = [
-        r.bias.difference.half / abs(r.true_mean) for r in tested if r.bias and r.tested and r.true_mean
-    ]
-    blunt = max(shares, default=0.0)
-    if blunt <= _BLUNT:
+    if not (hidden := blunt(rows)):
         return found
-    hidden = (
-        f"a bias below {100 * blunt:.0f} % of the mean" if blunt < 1 else "a bias even as large as the mean"
-    )
-    what = f"{hidden} is hidden by noise here: more seeds or reference rays, or another reference, help"
+    size = f"below {100 * hidden:.0f} % of the mean" if hidden < 1 else "even as large as the mean"
+    what = f"a bias {size} was not testable: noise hides it; more seeds or reference rays, or another reference, help"
     return [*found, ("note", "", what)]

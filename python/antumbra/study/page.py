@@ -15,6 +15,8 @@ if TYPE_CHECKING:
     from antumbra.study.findings import Findings
     from antumbra.study.rows import Row
 
+# A slope's interval that is wider than ± this does not tell 1/N from other laws.
+_NARROW = 0.1
 RADIANCE = "W·m⁻²·sr⁻¹"
 
 
@@ -40,15 +42,14 @@ def _environment() -> jinja2.Environment:
 
 def short_table(study: Findings) -> list[str]:
     """One line per curve for a terminal: its slope, and its last row."""
-    lines = [("", "slope of the variance", "RMSE", "bias")]
+    lines = [("", "slope of the variance", "noise", "RMSE", "bias")]
     for name, rows in study.curves().items():
         slope, last = study.slope(name), rows[-1]
         at = "" if last.n is None else f" at {_short(f'{last.n:.12g}')}"
         biased = any(r.bias is not None and r.bias.flagged for r in rows)
-        lines.append(
-            (name, str(slope or "–"), f"{study.error(last) or '–'}{at}", "biased" if biased else _bias(last))
-        )
-    widths = [max(len(line[i]) for line in lines) for i in range(4)]
+        errors = f"{last.noise}{at}", f"{_error(last) or '–'}{at}"
+        lines.append((name, str(slope or "–"), *errors, "biased" if biased else _bias(last)))
+    widths = [max(len(line[i]) for line in lines) for i in range(5)]
     return [
         "  " + "   ".join(text.ljust(w) for text, w in zip(line, widths, strict=True)).rstrip()
         for line in lines
@@ -64,10 +65,11 @@ def _facts(study: Findings) -> dict[str, Any]:
         "over_seconds": ""
         if study.axis == "budget" and study.budget == "seconds"
         else _plot(study, "seconds"),
-        "slopes": [(name, slope, _against_independent(slope)) for name, slope in _slopes(study)],
+        "slopes": [(name, slope, against_independent(slope)) for name, slope in _slopes(study)],
         "rows": [_line(study, row) for row in study.rows],
         "best": study.name_of(best) if best else "",
         "biased": _biased(study),
+        "shown": _shown(study),
         "axis": axis_title(study),
         "varied": [(_dashed(name), [_short(v) for v in values]) for name, values in study.varied.items()],
         "fixed": [(_dashed(name), value) for name, value in study.fixed.items()],
@@ -96,14 +98,19 @@ def _plot(study: Findings, over: str) -> str:
     return plot.error_curves(
         curves,
         x_title=title,
-        y_title=f"RMSE, {RADIANCE}",
-        label=f"RMSE against {title}. {said}.",
+        y_title=f"{_shown(study)}, {RADIANCE}",
+        label=f"{_shown(study)} against {title}. {said}.",
         chosen=study.name_of(best) if best else None,
         x_ticks=None
         if not of_time and study.axis != "budget"
         else _decades([x for c in curves for x in c.x]),
         logarithmic=(of_time or numbers, True),
     )
+
+
+def _shown(study: Findings) -> str:
+    """What the plots show: the error against the reference, or without one the noise alone."""
+    return "RMSE" if any(row.mse for row in study.rows) else "noise"
 
 
 def _decades(values: list[float]) -> list[float]:
@@ -117,15 +124,16 @@ def _slopes(study: Findings) -> list[tuple[str, Interval]]:
     return [(name, slope) for name, slope in found if slope is not None]
 
 
-def _against_independent(slope: Interval) -> str:
+def against_independent(slope: Interval) -> str:
+    """How the variance falls, in words: as that of independent samples, faster or slower; or undecided."""
     if slope.contains(-1.0):
-        return "as 1/N"
+        return "as 1/N" if slope.half <= _NARROW else "undecided"
     return "faster than 1/N" if slope.high < -1 else "slower than 1/N"
 
 
 def _line(study: Findings, row: Row) -> dict[str, Any]:
     """A row of the table, in words."""
-    error = study.error(row)
+    error = row.rmse
     first = study.rows[0]
     gain = ratio(row.efficiency, first.efficiency) if row is not first else None
     return {
@@ -134,12 +142,20 @@ def _line(study: Findings, row: Row) -> dict[str, Any]:
         "rays": f"{row.viewing_rays:,} × {row.shadow_rays:,}",
         "traced": f"{row.rays:,.1f}",
         "seconds": str(row.seconds),
-        "error": "below the reference's noise" if error is None or error.value <= 0 else str(error),
+        "noise": str(row.noise) if row.noisy else "0",
+        "error": _error(row),
         "share": f"{_percent(100 * error.value / row.true_mean)} %" if error and row.true_mean else "",
         "gain": "1" if gain is None else _times(gain),
         "bias": _bias(row),
         "flagged": row.bias is not None and row.bias.flagged,
     }
+
+
+def _error(row: Row) -> str:
+    """The RMSE in words; nothing without a reference."""
+    if row.rmse is None:
+        return ""
+    return str(row.rmse) if row.rmse.value > 0 else "below the reference's noise"
 
 
 def _times(gain: Interval) -> str:

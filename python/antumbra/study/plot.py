@@ -110,9 +110,12 @@ def error_curves(
     `label`: the sentence for those who do not see it; `chosen`: the name of the blue curve (the first without);
     ticks: without them, the places of the marks, and decades with their threes. Ticks 1/3, 1/6, 1/10 are written so.
     """
-    from matplotlib import rc_context
+    from matplotlib import rc_context, rcParamsDefault
 
-    with rc_context({"svg.fonttype": "none", "svg.hashsalt": "antumbra", "path.simplify": False}):
+    # From the library's own settings: a user's may draw text as paths, or cut the picture.
+    fresh: dict[Any, Any] = {name: value for name, value in rcParamsDefault.items() if "backend" not in name}
+    own: dict[Any, Any] = {"svg.fonttype": "none", "svg.hashsalt": "antumbra", "path.simplify": False}
+    with rc_context({**fresh, **own}):
         page = _Page(curves, logarithmic)
         page.axes_and_ticks(x_ticks, y_ticks)
         for number, curve in enumerate(curves):

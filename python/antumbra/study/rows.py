@@ -14,6 +14,9 @@ from antumbra.study import statistics
 from antumbra.study.bias import Bias, bias
 from antumbra.study.statistics import Interval
 
+# A test of bias that would miss more than this, as a part of the mean, is no test.
+_BLUNT = 0.05
+
 Pictures = NDArray[np.float64]
 
 
@@ -73,6 +76,11 @@ class Row:
     bias: Bias | None = None
 
     @property
+    def noise(self) -> Interval:
+        """Root of `variance`: the standard deviation over seeds, which needs no reference."""
+        return statistics.root(self.variance)
+
+    @property
     def rmse(self) -> Interval | None:
         """Root of `mse`."""
         return statistics.root(self.mse) if self.mse else None
@@ -90,6 +98,13 @@ class Row:
         return self.bias is not None and self.bias.tested > 0
 
     @property
+    def hidden(self) -> float:
+        """A bias that is not flagged may be as large as this, as a part of the mean; infinite if nothing is known."""
+        if not self.tested or self.bias is None or not self.true_mean:
+            return math.inf
+        return self.bias.hidden / abs(self.true_mean)
+
+    @property
     def noisy(self) -> bool:
         """Whether its seeds differ at all; a regular grid has the same error each time."""
         return self.variance.value > 0
@@ -105,10 +120,17 @@ class Row:
         for name in ("seconds", "variance", "efficiency", "mse"):
             found[name] = None if plain[name] is None else _interval(plain[name])
         if plain["bias"] is not None:
-            flagged, p, difference, tile, tested = plain["bias"]
-            p = math.nan if p is None else p
-            found["bias"] = Bias(flagged, p, _interval(difference), tuple(tile) if tile else None, tested)
+            flagged, p, difference, tile, tested, hidden = plain["bias"]
+            p, hidden = math.nan if p is None else p, math.inf if hidden is None else hidden
+            place = tuple(tile) if tile else None
+            found["bias"] = Bias(flagged, p, _interval(difference), place, tested, hidden)
         return cls(**found)
+
+
+def blunt(rows: Sequence[Row]) -> float:
+    """The largest `hidden` of all rows whose bias was tested and not found, if it is above 5 %; else 0."""
+    hidden = max((r.hidden for r in rows if r.tested and r.bias and not r.bias.flagged), default=0.0)
+    return hidden if hidden > _BLUNT else 0.0
 
 
 def untested(rows: Sequence[Row]) -> float:

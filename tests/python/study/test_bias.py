@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from antumbra.study._quantiles import t_quantile
 from antumbra.study.bias import bias
 
 
@@ -85,3 +86,17 @@ def test_without_noise_only_a_real_difference_counts():
 def test_pictures_of_another_size_are_told():
     with pytest.raises(ValueError, match="same picture"):
         bias(np.zeros((3, 4, 4)), np.zeros((4, 5)))
+
+
+def test_what_is_hidden_is_what_would_be_flagged():
+    random = np.random.default_rng(7)
+    x, reference = noisy(random, 8, TRUTH, 0.1), noisy(random, 8, TRUTH, 0.1)
+    # One test of the whole picture, then one of 17: Bonferroni's share of α makes the threshold larger.
+    for tiles, count in ((1, 1), (4, 17)):
+        found = bias(x, reference, tiles=tiles)
+        by_hand = t_quantile(1 - 1e-3 / (2 * count), 7) / t_quantile(0.975, 7) * found.difference.half
+        assert found.hidden == pytest.approx(by_hand, rel=1e-9)
+        assert bias(x - found.difference.value + 1.001 * found.hidden, reference, tiles=tiles).flagged
+    shifted = x - found.difference.value
+    alone = bias(x, reference, tiles=1).hidden
+    assert not bias(shifted + 0.999 * alone, reference, tiles=1).flagged

@@ -19,7 +19,8 @@ def test_a_study_prints_a_line_per_curve_and_where_the_page_is(antumbra, tmp_pat
     assert done.code == 0, done.err
     lines = done.out.splitlines()
     assert [line.split()[0] for line in lines] == ["slope", "random", "owen", "out/index.html"]
-    assert "4 rows × 3 seeds · no bias found" in lines[-1]
+    # Of three seeds hardly anything is sure.
+    assert "4 rows × 3 seeds · a bias" in lines[-1] and lines[-1].endswith("was not testable")
     assert (tmp_path / "out" / "index.html").stat().st_size > 5_000
     assert json.loads((tmp_path / "out" / "results.json").read_text("utf-8"))["axis"] == "shadow_rays"
 

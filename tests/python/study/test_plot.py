@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from xml.etree import ElementTree
 
+import matplotlib
 import numpy as np
 import pytest
 
@@ -53,6 +54,15 @@ def test_ticks_are_those_of_the_lecture():
 
 def test_the_same_curves_give_the_same_bits():
     assert drawn(curves("a", "b")) == drawn(curves("a", "b"))
+
+
+def test_the_settings_of_a_user_s_own_plots_change_nothing():
+    hostile = {"text.usetex": True, "savefig.bbox": "tight", "svg.fonttype": "path", "axes.xmargin": 0.4,
+               "lines.linewidth": 9, "font.size": 30, "savefig.dpi": 300, "figure.autolayout": True}  # fmt: skip
+    expected = drawn(curves("a", "b"))
+    with matplotlib.rc_context(hostile):
+        assert drawn(curves("a", "b")) == expected
+        assert matplotlib.rcParams["lines.linewidth"] == 9
 
 
 def test_marks_differ_in_shape_and_hollow_ones_are_not_fitted():

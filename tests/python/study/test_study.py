@@ -5,6 +5,8 @@ Seeds are fixed: each test has the same numbers every time. The claims have α =
 
 from __future__ import annotations
 
+import csv
+import io
 import json
 from html.parser import HTMLParser
 
@@ -14,7 +16,7 @@ import pytest
 import antumbra as am
 from antumbra.study import StudyStopped, files, kinds, plan, renders
 from antumbra.study import statistics as st
-from antumbra.study.page import short_table
+from antumbra.study.page import against_independent, short_table
 
 # One ray through the centre of each pixel, points uniform on the lights: all noise is that of the shadow rays.
 SHADOW_RAYS = {"estimator": "area", "light_points": "area", "viewing_rays": 1, "viewing": "centre"}
@@ -78,6 +80,46 @@ def test_a_grid_without_noise_is_held_against_the_reference():
     assert found.error(regular).value > 0 and found.error(regular).half > 0
     assert np.isnan(regular.efficiency.value)
     assert "nan" not in found.html().lower().replace("nanum", "")
+
+
+def test_rmse_is_against_the_reference_and_noise_is_not():
+    given = {"vary": {"shadow_rays": [1, 4]}, "estimator": "area", "viewing_rays": 64, "size": (16, 12)}
+    # Half as bright again as it should be.
+    wrong = 1.5 * am.builtin("pillars").render(estimator="mis", viewing_rays=64, size=(16, 12)).pixels
+    found = study("pillars", reference=wrong, **given)
+    for row, line in zip(found.rows, csv.DictReader(io.StringIO(found.csv())), strict=True):
+        assert found.error(row) == row.rmse == st.root(row.mse) and row.noise == st.root(row.variance)
+        assert float(line["rmse"]) == row.rmse.value > 2 * row.noise.value == 2 * float(line["noise"])
+    assert found.plot_curves()[0].y == [row.rmse.value for row in found.rows]
+    assert (
+        str(found.rows[-1].noise) in short_table(found)[1]
+        and str(found.rows[-1].rmse) in short_table(found)[1]
+    )
+    alone = study("pillars", vary={"estimator": ["area", "mis", "hemisphere", "surfaces"]}, viewing_rays=1)
+    assert alone.error(alone.rows[0]) is None and "RMSE" not in alone.html()
+    assert [y for c in alone.plot_curves() for y in c.y] == [row.noise.value for row in alone.rows]
+
+
+def test_a_blunt_test_is_told():
+    found = study(
+        "pillars", vary={"shadow_rays": [1]}, estimator="area", viewing_rays=1, seeds=3, size=(8, 6)
+    )
+    (row,) = found.rows
+    assert row.tested and found.untestable() == row.hidden > 0.05
+    assert any("was not testable: noise hides it" in text for _, _, text in found.messages)
+
+
+@pytest.mark.parametrize(
+    ("slope", "said"),
+    [
+        ((-1.02, -1.05, -0.99), "as 1/N"),
+        ((-1.0, -1.4, -0.6), "undecided"),
+        ((-1.5, -1.6, -1.4), "faster than 1/N"),
+        ((-0.5, -0.9, -0.1), "slower than 1/N"),
+    ],
+)
+def test_a_wide_interval_says_nothing_of_how_noise_falls(slope, said):
+    assert against_independent(st.Interval(*slope)) == said
 
 
 def test_each_truth_has_its_own_reference():
