@@ -62,7 +62,7 @@ $(VENV)/.ok: $(SOURCES)
 
 # The programs that the races run against, in an environment of their own.
 $(RIVALS)/.ok: $(SOURCES) benches/requirements.txt
-	@tools/setup.sh $(RIVALS) .
+	@MATURIN_PEP517_ARGS="--profile release" tools/setup.sh $(RIVALS) .
 	@$(RIVALS)/bin/pip install --quiet --disable-pip-version-check -c constraints.txt -r benches/requirements.txt
 	@touch $@
 
