@@ -136,6 +136,56 @@ fn a_mask_lets_its_share_pass() {
 }
 
 #[test]
+fn a_blend_has_two_looks_and_a_weight() {
+    let cube = |bsdf: &str| {
+        let s = scene(&format!("<shape type='cube'>{bsdf}</shape>{BALL}"));
+        assert!(warnings(&s).iter().all(|w| w.contains("no emitter") || w.contains("no sensor")), "{bsdf}");
+        let look = s.materials[s.objects[0].material as usize].clone();
+        (s, look)
+    };
+    let mirror = "<bsdf type='conductor'/>";
+    let blend = |weight: &str, first: &str| format!("<bsdf type='blendbsdf'>{weight}{first}{mirror}</bsdf>");
+    let weight = "<float name='weight' value='0.25'/>";
+    let (s, look) = cube(&blend(weight, "<bsdf type='diffuse'/>"));
+    let Surface::Blend { first, second, weight: 0.25 } = look.surface else { panic!("{look:?}") };
+    let part = |s: &SceneBuilder, id: u32| s.materials[id as usize].clone();
+    assert!(matches!(part(&s, first).surface, Surface::Diffuse { .. }) && part(&s, first).one_sided);
+    assert!(matches!(part(&s, second).surface, Surface::Mirror { .. }));
+    // Two-sided, each part is.
+    let both = blend(weight, "<bsdf type='diffuse'/>");
+    let (s, look) = cube(&format!("<bsdf type='twosided'>{both}</bsdf>"));
+    let Surface::Blend { first, second, .. } = look.surface else { panic!("{look:?}") };
+    assert!(!part(&s, first).one_sided && !part(&s, second).one_sided);
+    // Three quarters of nothing and a quarter of a mirror: three quarters of the rays pass.
+    let (_, look) = cube(&blend(weight, "<bsdf type='null'/>"));
+    assert_eq!((look.alpha, look.opacity), (Alpha::Blend, 0.25));
+    assert!(matches!(look.surface, Surface::Blend { weight: 1.0, .. }));
+    // A texture weighs by its luminance, 0.7152 for green.
+    let fields = "<texture name='weight' type='checkerboard'><rgb name='color0' value='0,1,0'/></texture>";
+    let (s, look) = cube(&blend(fields, "<bsdf type='diffuse'/>"));
+    let texture = &s.textures[look.blend.unwrap() as usize];
+    assert_eq!([texture.image.texel(0, 0)[0], texture.image.texel(1, 0)[0]], [0.7152, 0.2]);
+    let error = refused("<shape type='cube'><bsdf type='blendbsdf'><bsdf type='diffuse'/></bsdf></shape>");
+    assert!(error.contains("needs two bsdfs"), "{error}");
+}
+
+#[test]
+fn a_second_bsdf_of_twosided_is_the_back() {
+    let s = scene(
+        "<shape type='cube'><bsdf type='twosided'><bsdf type='diffuse'/><bsdf type='conductor'/></bsdf></shape>",
+    );
+    let look = &s.materials[s.objects[0].material as usize];
+    let back = &s.materials[look.back.unwrap() as usize];
+    assert!(
+        matches!(look.surface, Surface::Diffuse { .. }) && matches!(back.surface, Surface::Mirror { .. })
+    );
+    assert!(!look.one_sided && !back.one_sided);
+    let third = "<bsdf type='diffuse'/>".repeat(3);
+    let error = refused(&format!("<shape type='cube'><bsdf type='twosided'>{third}</bsdf></shape>"));
+    assert!(error.contains("more than two bsdfs"), "{error}");
+}
+
+#[test]
 fn what_is_not_read_is_named_once_with_its_line() {
     let s = scene(&format!(
         "{BALL}\n<shape type='klein_bottle'/>\n<shape type='sphere'><float name='wobble' value='1'/></shape>\n\

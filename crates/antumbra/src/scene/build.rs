@@ -58,10 +58,12 @@ impl SceneBuilder {
                     return Err(SceneError::new(material_place(i, m), what, ""));
                 }
             }
-            if let Surface::Blend { first, second, .. } = m.surface
-                && first.max(second) as usize >= i
-            {
-                let what = "blends a material that does not stand before it";
+            let blends = match m.surface {
+                Surface::Blend { first, second, .. } => Some(first.max(second)),
+                _ => None,
+            };
+            if blends.max(m.back).is_some_and(|latest| latest as usize >= i) {
+                let what = "blends, or has on its back, a material that does not stand before it";
                 return Err(SceneError::new(material_place(i, m), what, ""));
             }
             if let Some(what) = m.surface.fault() {

@@ -1,5 +1,7 @@
 //! How the surface of an object looks: reflection, emission, alpha, and the textures of each.
 
+use std::collections::BTreeSet;
+
 use antumbra_math::Rgb;
 
 use crate::bsdf::{
@@ -205,6 +207,8 @@ pub struct Material {
     pub alpha: Alpha,
     /// Its back is black; else both sides look alike.
     pub one_sided: bool,
+    /// The look of its back, a material that stands before it in the scene; its emission and alpha do not count.
+    pub back: Option<MaterialId>,
     /// Alpha factor, times the texture's and the vertex colours' alpha.
     pub opacity: f32,
 }
@@ -296,19 +300,27 @@ impl Material {
             emission: None,
             alpha: Alpha::Opaque,
             one_sided: false,
+            back: None,
             opacity: 1.0,
         }
     }
 }
 
-/// The material `id`, or those that it blends, each once or more.
+/// The material `id`, or those that it blends, and those of its back, each once.
 pub fn blended(materials: &[Material], id: MaterialId) -> Vec<MaterialId> {
-    match materials[id as usize].surface {
-        Surface::Blend { first, second, .. } => {
-            [blended(materials, first), blended(materials, second)].concat()
+    let (mut open, mut seen, mut found) = (vec![id], BTreeSet::new(), Vec::new());
+    while let Some(id) = open.pop() {
+        if !seen.insert(id) {
+            continue;
         }
-        _ => vec![id],
+        let material = &materials[id as usize];
+        open.extend(material.back);
+        match material.surface {
+            Surface::Blend { first, second, .. } => open.extend([second, first]),
+            _ => found.push(id),
+        }
     }
+    found
 }
 
 /// Takes a number into [0, 1], NaN to 0; says whether it had to be.

@@ -77,9 +77,9 @@ impl Scene {
     pub fn meet(&self, ray: &Ray, look: &Look) -> Met {
         let Ray { o, d, t, prim, uv, number } = *ray;
         let (object, local) = self.locate(prim);
-        let material = self.material_at(object, local, uv, hash::hash2(number, prim));
         let place = self.place(object, local, o.as_dvec3() + d.as_dvec3() * t, uv);
         let front = place.outward.dot(d.as_dvec3()) < 0.0;
+        let material = self.material_at((object, local, uv), front, hash::hash2(number, prim));
         let toward = if front { place.outward } else { -place.outward };
         let (start, first) = place.start(toward, prim, look.start);
         let wo = -d.normalize();
@@ -110,8 +110,7 @@ impl Scene {
         Met { receiver, emitted, shown: self.shown(material, (object, local, uv), look) }
     }
 
-    /// L_e of the surface toward the ray that met it, and the light it belongs to: what
-    /// [`Scene::meet`] says of it, without the rest.
+    /// L_e of the surface toward the ray that met it, and the light it belongs to: as [`Scene::meet`] says.
     #[inline]
     pub fn emitted(&self, ray: &Ray) -> Option<(LightId, Rgb)> {
         let Ray { o, d, t, prim, uv, .. } = *ray;
@@ -171,15 +170,19 @@ impl Scene {
         reflection(&material.surface, front, |c| self.tinted(c, material, at), metal_rough)
     }
 
-    /// The look of an object at a point: of a blend, the one that `number` draws.
-    fn material_at(&self, object: &Placed, local: u32, uv: [f32; 2], number: u32) -> &Material {
-        let mut material = &self.materials[object.material as usize];
+    /// The look of an object's side at a point: of a blend, the one that `number` draws.
+    fn material_at(&self, at: At<'_>, front: bool, number: u32) -> &Material {
+        let side = |id: u32| match self.materials[id as usize].back {
+            Some(back) if !front => &self.materials[back as usize],
+            _ => &self.materials[id as usize],
+        };
+        let mut material = side(at.0.material);
         // Not the number that alpha took.
         let mut number = hash::hash2(number, BLENDED);
         while let Surface::Blend { first, second, weight } = material.surface {
-            let [red, ..] = self.texel((object, local, uv), material.blend).unwrap_or([1.0; 4]);
+            let [red, ..] = self.texel(at, material.blend).unwrap_or([1.0; 4]);
             let second_wins = hash::unit_f32(number) < weight * red;
-            material = &self.materials[if second_wins { second } else { first } as usize];
+            material = side(if second_wins { second } else { first });
             number = hash::hash2(number, BLENDED);
         }
         material

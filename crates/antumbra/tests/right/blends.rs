@@ -92,12 +92,44 @@ fn a_white_blend_vanishes() {
     judge.verdict("a_white_blend_vanishes", 1e-3);
 }
 
-/// A blend knows only materials that stand before it, so that none goes round.
+/// A surface with another look on its back is, seen from a side, a surface of that side's look: to the last bit.
+#[test]
+fn each_side_has_its_look() {
+    let floor = |turned: bool, look: &dyn Fn(&mut antumbra::scene::SceneBuilder) -> Material| {
+        let mut room = rooms::under_sky();
+        if turned {
+            room.meshes[0].triangles.indices.iter_mut().for_each(|t| t.swap(1, 2));
+        }
+        let made = look(&mut room);
+        room.objects[0].material = room.material(made);
+        whole(&self::look(&room.build().unwrap(), &Settings { bounces: 2, ..small(Mis) }), 0)
+    };
+    let red = |_: &mut antumbra::scene::SceneBuilder| Material::diffuse(RED);
+    let blue = |_: &mut antumbra::scene::SceneBuilder| Material::diffuse(BLUE);
+    let two = |room: &mut antumbra::scene::SceneBuilder| {
+        let back = Some(room.material(Material::diffuse(BLUE)));
+        Material { back, ..Material::diffuse(RED) }
+    };
+    let blend = |room: &mut antumbra::scene::SceneBuilder| {
+        let part = two(room);
+        let part = room.material(part);
+        Material::blend(part, part, 0.5)
+    };
+    for look in [&two as &dyn Fn(&mut _) -> Material, &blend] {
+        assert_eq!(floor(false, look), floor(false, &red));
+        assert_eq!(floor(true, look), floor(true, &blue));
+    }
+    assert_ne!(floor(false, &red), floor(false, &blue));
+}
+
+/// A blend, or a look with a back, knows only materials that stand before it, so that none goes round.
 #[test]
 fn blends_do_not_go_round() {
-    for (first, second) in [(0, 4), (4, 0), (0, 99)] {
+    let back = |back| Material { back: Some(back), ..Material::diffuse(RED) };
+    let blend = |first, second| Material::blend(first, second, 0.5);
+    for look in [blend(0, 4), blend(4, 0), blend(0, 99), back(4), back(99)] {
         let mut room = rooms::under_sky();
-        let id = room.material(Material::blend(first, second, 0.5));
+        let id = room.material(look);
         room.objects[0].material = id;
         let error = room.build().err().unwrap().to_string();
         assert!(error.contains("does not stand before it"), "{error}");

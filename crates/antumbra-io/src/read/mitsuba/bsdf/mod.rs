@@ -1,5 +1,6 @@
 //! Looks: each bsdf plugin as a material.
 
+mod blend;
 mod dielectric;
 mod metal;
 mod opaque;
@@ -22,7 +23,7 @@ use crate::read::GREY;
 type Make = for<'a> fn(&mut Reader<'a>, &'a Element) -> Result<Material, ReadError>;
 
 /// Every bsdf plugin that is read. To add one: a function and a line here.
-const BSDFS: [(&str, Make); 14] = [
+const BSDFS: [(&str, Make); 15] = [
     ("diffuse", opaque::diffuse),
     ("principled", opaque::principled),
     ("null", opaque::null),
@@ -35,6 +36,7 @@ const BSDFS: [(&str, Make); 14] = [
     ("roughplastic", plastic::roughplastic),
     ("twosided", wrap::twosided),
     ("mask", wrap::mask),
+    ("blendbsdf", blend::blendbsdf),
     ("normalmap", wrap::normalmap),
     ("bumpmap", wrap::bumpmap),
 ];
@@ -77,11 +79,10 @@ impl<'a> Reader<'a> {
         Ok(material)
     }
 
-    /// The one bsdf that stands in a wrapper, and how many there are.
-    fn inner(&mut self, element: &'a Element) -> Result<(Material, usize), ReadError> {
-        let found = self.plugins(element, "bsdf")?;
-        match found.first() {
-            Some(first) => Ok((self.convert(first)?, found.len())),
+    /// The one bsdf that stands in a wrapper.
+    fn inner(&mut self, element: &'a Element) -> Result<Material, ReadError> {
+        match self.plugins(element, "bsdf")?.first() {
+            Some(first) => self.convert(first),
             None => Err(element.at.error(format!("{} needs a bsdf in it", element.words()))),
         }
     }

@@ -1,4 +1,4 @@
-//! What wraps another bsdf: twosided, mask, normalmap, bumpmap.
+//! What wraps another bsdf: twosided (one look for both sides, or one for each), mask, normalmap, bumpmap.
 
 use std::sync::Arc;
 
@@ -10,19 +10,25 @@ use super::super::document::Element;
 use super::super::texture::Paint;
 use crate::error::ReadError;
 
-/// The same look from both sides.
+/// The same look from both sides, or a second one from behind.
 pub(super) fn twosided<'a>(reader: &mut Reader<'a>, element: &'a Element) -> Result<Material, ReadError> {
-    let (material, count) = reader.inner(element)?;
-    if count > 1 {
-        let what = "a second bsdf for the back: both sides are drawn with the first";
-        reader.said.warn(element.at.words(), what);
+    let material = reader.inner(element)?;
+    let both = |material| Material { one_sided: false, ..material };
+    let material = reader.each_part(material, &both);
+    match reader.plugins(element, "bsdf")?[..] {
+        [_, back] => {
+            let back = reader.convert(back)?;
+            let back = reader.each_part(back, &both);
+            Ok(Material { back: Some(reader.scene.material(back)), ..material })
+        }
+        [_, _, third, ..] => Err(third.at.error(format!("{} has more than two bsdfs", element.words()))),
+        _ => Ok(material),
     }
-    Ok(Material { one_sided: false, ..material })
 }
 
 /// Lets a part of the rays pass.
 pub(super) fn mask<'a>(reader: &mut Reader<'a>, element: &'a Element) -> Result<Material, ReadError> {
-    let (material, _) = reader.inner(element)?;
+    let material = reader.inner(element)?;
     let material = Material { alpha: Alpha::Blend, ..material };
     match reader.paint(element, "opacity", 0.5)? {
         Paint::Plain(opacity) => Ok(Material { opacity: opacity.mean(), ..material }),
@@ -63,12 +69,13 @@ fn with_alpha(reader: &mut Reader, color: Option<TextureId>, opacity: TextureId)
 
 /// Bends the shading normal by a picture of normals.
 pub(super) fn normalmap<'a>(reader: &mut Reader<'a>, element: &'a Element) -> Result<Material, ReadError> {
-    let (material, _) = reader.inner(element)?;
+    let material = reader.inner(element)?;
     // How Mitsuba treats normals that point below the surface; antumbra has one way.
     element.pass_over(&["flip_invalid_normals", "use_shadowing_function"]);
     match reader.paint(element, "normalmap", 0.0)? {
         Paint::Texture(texture) => {
-            Ok(Material { normal: Some(NormalMap { texture, scale: 1.0 }), ..material })
+            let normal = Some(NormalMap { texture, scale: 1.0 });
+            Ok(reader.each_part(material, &|part| Material { normal, ..part }))
         }
         Paint::Plain(_) => Ok(material),
     }
@@ -76,7 +83,7 @@ pub(super) fn normalmap<'a>(reader: &mut Reader<'a>, element: &'a Element) -> Re
 
 /// Bumps are left out.
 pub(super) fn bumpmap<'a>(reader: &mut Reader<'a>, element: &'a Element) -> Result<Material, ReadError> {
-    let (material, _) = reader.inner(element)?;
+    let material = reader.inner(element)?;
     element.children.iter().for_each(|c| c.used.set(true));
     let what =
         format!("{}: heights are not read (a normal map is): drawn without its bumps", element.words());

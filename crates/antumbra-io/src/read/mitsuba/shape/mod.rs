@@ -65,12 +65,12 @@ impl<'a> Reader<'a> {
         let (material, written_out) = self.look(element, emission.is_some())?;
         let (name, context) = (name(element), self.context);
         let world = context.root.after(&element.transform("to_world")?);
-        let textured =
-            material.color.is_some() || material.normal.is_some() || material.metallic_roughness.is_some();
+        let textured = self.is_textured(&material);
         let placing = Placing { world, textured, shines: emission.is_some() };
         let body = make(self, element, &placing)?;
         self.name_the_unread(element);
         let black = matches!(material.surface, Surface::Diffuse { albedo } if albedo.is_black());
+        let black = black && material.back.is_none();
         if let (Body::Parallelogram([corner, u, v], ..), Some(radiance), true) = (&body, emission, black) {
             self.scene.light(&name, light::Rectangle::new(*corner, *u, *v, radiance));
             return Ok(());
@@ -83,6 +83,13 @@ impl<'a> Reader<'a> {
             Body::Shape(shape) => self.scene.shape(&name, shape, material),
         }
         Ok(())
+    }
+
+    /// A look is painted with a texture; one of parts may be, where the scene has textures.
+    fn is_textured(&self, material: &Material) -> bool {
+        let parts = matches!(material.surface, Surface::Blend { .. }) || material.back.is_some();
+        let own = [material.color, material.metallic_roughness].iter().any(Option::is_some);
+        own || material.normal.is_some() || (parts && !self.scene.textures.is_empty())
     }
 
     /// The material of a shape, and its id if shapes may share it.
