@@ -11,6 +11,23 @@ from antumbra.study.statistics import Interval, Verdict
 from antumbra.study.statistics import verdict as of_interval
 
 
+def asked(claim: Claim, measured: Mapping[str, Quantity]) -> str:
+    """What a claim asks of its quantity, its tolerance among it, as the page writes it."""
+    unit = measured[claim.of].unit
+
+    def text(bound: float | str) -> str:
+        return f"{measured[bound]:v}" if isinstance(bound, str) else f"{Quantity(bound, unit=unit)}"
+
+    if claim.near is not None:
+        within = f"± {Quantity(claim.within, unit=unit)}"
+        return f"asked: within {within}" if claim.near == 0 else f"asked: {text(claim.near)}, {within}"
+    return (
+        f"asked: below {text(claim.below)}"
+        if claim.below is not None
+        else f"asked: above {text(claim.above or 0.0)}"
+    )
+
+
 def verdict(claim: Claim, measured: Mapping[str, Quantity]) -> Verdict:
     """By the 95 % interval of the claim's quantity, less its bound (with the interval of that, if it was measured)."""
     bound = next(b for b in (claim.near, claim.below, claim.above) if b is not None)

@@ -8,7 +8,7 @@ import numpy as np
 
 from antumbra.lecture.chapters import SEGMENT
 from antumbra.lecture.figure import Claim, Equation, Figure, Number, Pick, Question, Variant
-from antumbra.lecture.measures.false_shadow import width_of_false_shadow, wrong_pixels
+from antumbra.lecture.measures.false_shadow import half_width, width_of_false_shadow, wrong_pixels
 from antumbra.lecture.measures.points import irradiance_at
 from antumbra.lecture.measures.ratio import excess, ratio
 from antumbra.lecture.quantity import Quantity
@@ -24,8 +24,11 @@ AXIS, RADIUS = 1.05, 0.45
 TANGENT = RADIUS / (AXIS**2 - RADIUS**2) ** 0.5
 # A receiver on its underside, (z, y) where the light is (0, 0).
 P = (RADIUS * float(np.sin(0.5)), AXIS - RADIUS * float(np.cos(0.5)))
+HIDDEN, LIGHT = 0.15, 0.05
 # A sphere of radius 0.05 and radiance 720 that is 1.1 away: E = π L (r/d)².
-UNDER = np.pi * 720.0 * (0.05 / HANGS) ** 2
+UNDER = np.pi * 720.0 * (LIGHT / HANGS) ** 2
+# What the tangents from all points of the light say of the false shadow, not from its centre alone.
+WIDTH = half_width(HANGS, LIGHT, AXIS, RADIUS)
 LOOK = {
     "estimator": "area", "viewing_rays": Pick(4, 16), "shadow_rays": Pick(1, 2), "size": Pick((240, 192), (480, 384)),
     "eye": (2.4, 1.0, 6.9), "look_at": (0.0, -0.08, 0.0),
@@ -39,7 +42,7 @@ def _measure(run: Run) -> Mapping[str, Quantity]:
         "width": width_of_false_shadow(run, scene, HANGS, run.pick(Pick(512, 4096))),
         "under": excess(ratio(under, Quantity(UNDER))),
         "wrong": wrong_pixels(run, HANGS, HANGS),
-        "hidden": wrong_pixels(run, 0.15, HANGS),
+        "hidden": wrong_pixels(run, HIDDEN, HANGS),
     }  # fmt: skip
 
 
@@ -54,14 +57,17 @@ FIGURE = Figure(
         "What does the picture show?",
         ("no difference", "a shadow on the plane, and a dark cylinder", "all is dark"), 1,
     ),
-    variants=[Variant(f"{test}{y}", builtin("plane-and-cylinder", plane=y), LOOK | {"distance_test": test}) for y in HEIGHTS for test in ("off", "on")],
+    variants=[
+        Variant(f"{test}{y}", builtin("plane-and-cylinder", plane=y), LOOK | {"distance_test": test}, 4 if y in (HANGS, HIDDEN) else 1)
+        for y in HEIGHTS for test in ("off", "on")
+    ],
     measure=_measure, stage=_stage, exr=[f"off{HANGS}", f"on{HANGS}"],
     answer=Number("width", "Half of the width of the false shadow. The line from each point of it through the light meets the cylinder, at t\u00a0>\u00a01. "
         "{wrong} of all pixels are wrong."),
     equation=Equation([SEGMENT], "Marked: t ends at 1, the light. Without that end, all of the line behind the light counts too."),
     claims=[
-        Claim("Similar triangles say how wide the false shadow is.", "width", near=-HANGS * TANGENT, within=0.005, main=True,
-              measured="{width}; a point light and a tangent say 0.522 m"),
+        Claim("Tangents through all points of the light say how wide the false shadow is.", "width", near=WIDTH, within=0.002, main=True,
+              measured="{width}; they say " + f"{WIDTH:.4f} m, for the light's centre alone {-HANGS * TANGENT:.3f} m: a light of some size makes it wider"),
         Claim("With the test, the plane gets all light there is.", "under", near=0.0, within=0.01,
               measured="{under} off from π L (r/d)² under the light"),
         Claim("Once the plane lies between, both pictures agree.", "hidden", below=0.001, measured="{hidden} of the pixels differ at 0.15 m"),

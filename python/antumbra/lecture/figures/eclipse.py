@@ -65,8 +65,9 @@ FIGURE = Figure(
     answer=Number("turns", "There the tip of the umbra leaves the ground. Nearer, the eclipse is total on a path of some hundred "
         "kilometres; farther, it is annular."),
     equation=Equation(
-        [(r"\ell = \frac{\mark{D} \, r}{R - r}", "ℓ = D r / (R − r)")],
-        "Marked: D, from the sun to the moon. ℓ is the length of the umbra behind the moon, r and R the radii of moon and sun.",
+        [(r"\ell = \frac{\mark{D} \, r}{R - r}, \qquad d - R_\oplus = \ell", "ℓ = D r / (R − r), on the ground where d − R⊕ = ℓ")],
+        "Marked: D, from the sun to the moon. ℓ is the length of the umbra behind the moon, r and R the radii of moon and sun. Its tip is on the ground "
+        "where the moon's distance d less the earth's radius R⊕ = 6,371 km is ℓ.",
     ),
     claims=[
         Claim("The umbra is 373,600 km long, as similar triangles say.", "length", near=SKY.length(TURNS), within=600.0, main=True,

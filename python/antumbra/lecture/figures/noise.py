@@ -26,7 +26,7 @@ def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
     table = table_of(
         ("part of the variance", "share"), {words: (found[name],) for name, words in (SQUARES | PAIRS).items()},
         "Shares of the variance, mean over the picture", foot=("sum", "100 %"),
-        note="Maps: standard deviation of one sample, all on one scale; covariances: orange adds, blue takes away. "
+        note="Maps: standard deviation of one sample, all on one scale; of covariances the root with its sign: orange adds, blue takes away. "
         f"{ESTIMATES} independent estimates of {PLACES**2} places a pixel; each ± is of that row alone.",
     )  # fmt: skip
     return [causes(run, found, one), table]

@@ -29,6 +29,25 @@ def width_of_false_shadow(run: Run, scene: Scene, height: float, count: int) -> 
     return mean_of(widths, "m", f"8 replicates, {16 * count:,} shadow rays each")
 
 
+def half_width(height: float, light: float, axis: float, radius: float) -> float:
+    """The same in closed form [m]: the light is a sphere of radius `light` at 0, the cylinder has its axis above it.
+
+    Of the directions d = (sin a, cos a cos φ, cos a sin φ) to the light, those between the tangents in φ are lost; one
+    φ holds ∫ cos a cos φ · cos a da of them, |a| ≤ A with cos A = cos α / cos(φ − φ₀), α half of the light's angle.
+    """
+    z = (np.arange(1000) + 0.5)[:, None] / 1000
+    away, toward = np.hypot(z, height), np.arctan2(z, -height)
+    alpha = np.arcsin(light / away)
+    off = alpha * np.sin(np.linspace(-np.pi / 2, np.pi / 2, 401))
+    # φ = φ₀ + α sin s: dφ = α cos s ds, so that the ends of the light need no care.
+    step = np.cos(np.linspace(-np.pi / 2, np.pi / 2, 401))
+    a = np.arccos(np.clip(np.cos(alpha) / np.cos(off), -1.0, 1.0))
+    weight = step * np.cos(off - toward) * (a + np.sin(a) * np.cos(a))
+    middle, half = np.arctan2(z, axis - height), np.arcsin(radius / np.hypot(z, axis - height))
+    lost = np.abs(toward - off - middle) < half
+    return float(np.mean((weight * lost).sum(1) / weight.sum(1)))
+
+
 def wrong_pixels(run: Run, height: float, exposed: float) -> Quantity:
     """Share of the pixels that differ with the plane at `height`, exposed as the picture of the plane at `exposed`."""
     return share_changed(run, f"off{height}", f"on{height}", white=run.white(f"on{exposed}"))

@@ -20,16 +20,18 @@ def causes(run: Run, found: Mapping[str, Quantity], one: Picture) -> Tabs:
 
     def shown(name: str, words: str, signed: bool = False) -> Picture:
         part, ramp, low = getattr(first, name), "signed" if signed else "amber", -high if signed else 0.0
-        root, share = np.sign(part) * np.sqrt(np.abs(part)), f": {found[name]:1}" if name in found else ""
+        # An estimate of a variance may fall below 0, a covariance may be negative: its root with its sign.
+        root = np.sign(part) * np.sqrt(np.abs(part)) if signed else np.sqrt(np.maximum(part, 0.0))
+        share = f": {found[name]:1}" if name in found else ""
         return run.map(
             root,
-            f"Standard deviation by pixel, {words}{share}.",
+            f"{'Root of the covariance, with its sign,' if signed else 'Standard deviation'} by pixel, {words}{share}.",
             f"{words}{share}",
             name=name.replace("_", "-"),
             ramp=ramp,
             low=low,
             high=high,
-            unit="W·m⁻²·sr⁻¹",
+            unit="W·m⁻²·sr⁻¹" + (", signed root" if signed else ""),
             noise=True,
         )
 
