@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from antumbra import _core
 from antumbra.lecture import bars, pictures
+from antumbra.lecture.counted import counted
 from antumbra.lecture.quantity import written
 from antumbra.lecture.stages import Bar, Picture
 from antumbra.lecture.variant import Pick, Variant, edition
@@ -83,15 +84,16 @@ class Run:
     def _one(self, variant: Variant, replicate: int, step: Callable[[Progress], object]) -> Image:
         options = {name: self.pick(value) for name, value in variant.options.items()}
         options.setdefault("seed", self.seeded(replicate + (_TRUTHS if variant.truth else 0)))
-        image = self.scene(variant.scene).render(progress=step, **options)
-        self.rays += image.rays + image.shadow_rays
-        return image
+        return self.scene(variant.scene).render(progress=step, **options)
 
     def scene(self, build: Callable[[], Scene]) -> Scene:
-        """The scene that a function builds; built once."""
+        """The scene that a function builds; built once. Whatever it is asked, its rays count."""
         if build not in self._scenes:
-            self._scenes[build] = build()
+            self._scenes[build] = counted(build(), self._count)
         return self._scenes[build]
+
+    def _count(self, rays: int) -> None:
+        self.rays += rays
 
     def once(self, what: Hashable, make: Callable[[], Any]) -> Any:
         """What `make` gives, made at the first call with this `what`: measure and stage share it."""

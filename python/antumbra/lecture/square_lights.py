@@ -19,8 +19,9 @@ DISTANCE_RATIOS = {"1/7": 1 / 7, "1/3": 1 / 3, "1": 1.0}
 def boards_under_square(size: float, intensity: float = 4.0) -> SceneOf:
     """Boards that end at x = 0 under a square light of edge `size` in y = 2; 0 is a point light.
 
-    The power stays the same: radiance = `intensity` / size², so that a small light sends `intensity` [W/sr] straight
-    down, as the point does. All edges lie under the middle of the light.
+    All squares have the power π · `intensity`: radiance = `intensity` / size², so that a small one sends `intensity`
+    [W/sr] straight down. So does the point, which sends as much to all sides: 4π · `intensity`.
+    All edges lie under the middle of the light.
     """
 
     def build() -> am.Scene:

@@ -34,7 +34,7 @@ def _measure(run: Run) -> Mapping[str, Quantity]:
 def _stage(run: Run, measured: Mapping[str, Quantity]) -> list[Part]:
     panels = []
     for name, build in SCENES.items():
-        saved = measured[f"{name}_saved_blocked"]
+        saved = {word: measured[f"{name}_saved_{word}"] for word in ("blocked", "free")}
         panels.append(Panel(name, name, [maps_of_visits(run, run.scene(build), name, run.pick(SIZE), saved)]))
     note = f"Means over {run.pick(TIMES)} random points of a light. Rates: these rays in one call on all cores, mean of seven calls, 95 %. Visits are counted by a traversal ray by ray, rates are those of the renderer’s own traversal."
     return [Tabs("scene", "Scene", panels), table_of_visits(measured, list(SCENES), note)]

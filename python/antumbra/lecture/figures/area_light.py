@@ -1,4 +1,4 @@
-"""Figure 11: a point light against square lights of growing size at the same power; how wide the penumbra is."""
+"""Figure 11: square lights of growing size at the same power, beside a point light; how wide the penumbra is."""
 
 from __future__ import annotations
 
@@ -31,10 +31,10 @@ VIEW = FLOOR | {"eye": (2.9, 2.3, 2.0), "look_at": (-0.2, 0.2, 0.2), "up": (0.0,
 def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
     white = run.white("floor-0.5", share=99.9)
     strip = Strip(
-        "s", "Edge s of the light, at the same power", [frame(run, size, white) for size in SIZES], SIZES.index(0.7),
+        "s", "Edge s of the light, all squares at the same power", [frame(run, found, size, white) for size in SIZES], SIZES.index(0.7),
         ("From the side", "From below", "From outside"),
         note="Three boards hang over the receiver, their edges in line, from left to right with d₂/d₁ = 1/7, 1/3, 1. From the side, "
-        "the last one. The point light sends as much straight down as the others, but more to the sides: it has no cos θ′.",
+        "the last one. The point light sends as much straight down as the others, and the same to all sides: it has no cos θ′, and four times their power.",
     )  # fmt: skip
     curves = [
         curve_of(f"d₂/d₁ = {word}", FITTED, [found[f"w{s:g}-{n}"] for s in FITTED], partial(np.multiply, r), "line: s · d₂/d₁")
@@ -43,7 +43,7 @@ def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
     drawing = error_curves(
         curves, x_title="edge s of the light [m]", y_title="width of the penumbra [m]", logarithmic=(False, False),
         chosen=curves[-1].name, x_ticks=[0.2, 0.4, 0.6, 0.8, 1.0],
-        label="The penumbra is as wide as s times d₂/d₁ under all three boards.",
+        label=f"Width of the penumbra against s under three boards: {found['share']} of s times d₂/d₁.",
     )  # fmt: skip
     rows = {f"{s:g}": [found[f"w{s:g}-{n}"] for n in range(3)] for s in FITTED}
     head, says = ("s [m]", *(f"{word}" for word in DISTANCE_RATIOS)), "Measured width of the penumbra [m]"
@@ -62,7 +62,7 @@ FIGURE = Figure(
         Variant(f"{name}-{s}", boards_under_square(s), options)
         for s in SIZES for name, options in (("floor", FLOOR), ("view", VIEW))
     ],
-    measure=lambda run: board_widths(run, FITTED, DOUBLED), stage=_stage, exr=["view-0.5"],
+    measure=lambda run: board_widths(run, SIZES[1:], DOUBLED), stage=_stage, exr=["view-0.5"],
     answer=Number("doubled", "times as wide. It lies between the two shadows that the ends of the light cast, so it goes with s, not with the area."),
     equation=Equation(
         [(r"w = \mark{s} \, \frac{d_2}{d_1}, \qquad L_e = \frac{\Phi}{\pi \, \mark{s}^2}", "w = s · d₂ / d₁, with Lₑ = Φ / (π s²)")],
@@ -70,7 +70,7 @@ FIGURE = Figure(
     ),
     claims=[
         Claim("The penumbra is s · d₂/d₁ wide, under every board.", "share", near=1.0, within=0.005, main=True,
-              measured="{share} of it, over 18 widths"),
+              measured="{share} of it, over {widths} widths"),
         Claim("Seven times the d₂/d₁, seven times as wide.", "boards", near=7.0, within=0.05,
               measured="{boards} times, 1 against 1/7"),
         Claim("Without boards the floor below keeps its light but for 7.7 %.", "below", near=irradiance_under(1.0, 2.0) * 4 - 1, within=0.003,

@@ -13,7 +13,7 @@ from antumbra.lecture.measures.eclipse import hidden_share, tip_on_ground
 from antumbra.lecture.quantity import Quantity
 from antumbra.lecture.run import Run
 from antumbra.lecture.scenes import SceneOf, builtin
-from antumbra.lecture.sketches.eclipse import moon_moved
+from antumbra.lecture.sketches.eclipse import ACROSS, moon_moved
 from antumbra.lecture.stages import Part
 from antumbra.lecture.stages.regions import regions_key
 
@@ -31,7 +31,7 @@ VIEWS: dict[str, dict[str, Any]] = {
     "space": {},
     "ground": ONE | {"aov": "regions", "region_points": 64, "eye": (EYE, 0.0, 0.0), "look_at": (0.0, 0.0, 0.0),
                      "fov": 2 * np.arctan(GROUND / (EYE - SKY.earth))},
-    "sky": ONE | {"aov": "emission,albedo", "eye": (SKY.earth + 0.002, 0.0, 0.0), "look_at": (1e6, 0.0, 0.0), "fov": 0.0124},
+    "sky": ONE | {"aov": "emission,albedo", "eye": (SKY.earth + 0.002, 0.0, 0.0), "look_at": (1e6, 0.0, 0.0), "fov": ACROSS},
 }  # fmt: skip
 
 
@@ -71,7 +71,7 @@ FIGURE = Figure(
     ),
     claims=[
         Claim("The umbra is 373,600 km long, as similar triangles say.", "length", near=SKY.length(TURNS), within=600.0, main=True,
-              measured="measured {length} (95 %), D·r/(R − r) " + f"= {SKY.length(TURNS):,.0f} km"),
+              measured="measured {length} (spread about a line), D·r/(R − r) " + f"= {SKY.length(TURNS):,.0f} km"),
         Claim("At 406,700 km the moon covers 87.1 % of the sun.", "hidden", near=SKY.covered(FAR, 0.0), within=0.002,
               measured="measured {hidden}, " + f"lens formula {100 * SKY.covered(FAR, 0.0):.2f} %"),
         Claim("1,500 km beside the axis it covers 45.4 %.", "beside", near=SKY.covered(FAR, 1500.0), within=0.004,

@@ -23,7 +23,6 @@ def _measure(run: Run) -> Mapping[str, Quantity]:
     found: dict[str, Quantity] = {}
     for n, (name, (_, exact)) in enumerate(LIGHTS.items()):
         found |= both_ways(run.scene(alone(name)), exact, run.pick(COUNT), run.seeded(n), name)
-        run.rays += run.pick(COUNT)
     off = [sum_over_patches(run.scene(alone(ABOVE)), (x, 0, 0), SIDE) / omega_above(x) - 1 for x in PLACES]
     worst = float(np.max(np.abs(off)))
     return found | {"worst": Quantity(worst, 0.0, "%", f"{SIDE}² patches, {len(PLACES)} receivers")}

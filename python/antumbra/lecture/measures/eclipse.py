@@ -18,7 +18,7 @@ def tip_on_ground(run: Run, sky: Bodies, distances: Sequence[int], width: float)
     found = crossing(list(signed), list(signed.values()))
     # In single precision the ends of segments stand 2⁻²¹ of the sun's distance above its surface, 71 km.
     rim = sky.length(found.value) * 2**-21 * sky.unit / (sky.sun - sky.moon)
-    note = f"fit over {len(signed)} frames, and the rim of the sun in single precision"
+    note = f"spread about a line, {len(signed)} frames, and the rim of the sun in single precision"
     return Quantity(found.value, found.error + rim, "km", note)
 
 

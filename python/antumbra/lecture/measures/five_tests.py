@@ -86,6 +86,5 @@ def _seen(
 ) -> Quantity:
     """Irradiance by an estimator, with as many shadow rays in all whatever the number per viewing ray."""
     viewing_rays = (16 if estimator == "area" else run.pick(Pick(64, 1024))) * (RAYS // rays)
-    run.rays += 64 * viewing_rays * rays
     options = {"estimator": estimator, "mistake": mistake, "light_points": "area", "shadow_rays": rays}
     return irradiance_seen(run.scene(build), point, 0.5, viewing_rays, seed, **options)

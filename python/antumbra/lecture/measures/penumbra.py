@@ -36,7 +36,6 @@ def penumbra_widths(
         points = a + (b - a) * ((np.arange(count) + offset) / count)[:, None]
         blocked = [scene.occluded(points, np.array(end)) for end in ends]
         widths.append(step * np.count_nonzero(blocked[0] != blocked[1]))
-    run.rays += 32 * count
     return np.array(widths)
 
 
@@ -56,6 +55,7 @@ def board_widths(
     return {
         **{f"w{s:g}-{b}": _width(w, 2 * _half(ratios[b]) / run.pick(_COUNT)) for (s, b), w in width.items()},
         "doubled": mean_of(np.mean(twice, axis=0)),
+        "widths": Quantity(len(width)),
         "share": mean_of(np.mean([w / (s * ratios[b]) for (s, b), w in width.items()], axis=0)),
         "boards": mean_of(width[most, len(BOARDS) - 1] / width[most, 0]),
         "below": excess(ratio(square, point)),

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from antumbra.lecture.measures.replicates import of_interval
 from antumbra.lecture.quantity import Quantity
 from antumbra.lecture.run import Run
+from antumbra.scene import Scene
 from antumbra.study._quantiles import t_quantile
 from antumbra.study.statistics import Interval
 
@@ -42,12 +43,35 @@ def radii_of(run: Run, key: str, width: float) -> Radii:
     return radii(regions, width / len(regions))
 
 
+def ends_on_axis(scene: Scene, height: float, length: float, reach: float) -> Quantity:
+    """How far behind an occluder at `height` over the origin the umbra ends on its axis, looked for within `reach` of
+    `length`: the middle between the last point of the umbra and the first one of the antumbra, ± half of what lies
+    between.
+
+    Raises ValueError if the regions are not those two, in this order.
+    """
+    behind = length + reach * np.linspace(-1, 1, 2001)
+    points = np.stack([0 * behind, height - behind, 0 * behind], 1)
+    found = scene.regions(points, (0.0, 1.0, 0.0))
+    first = int(np.argmax(found != UMBRA))
+    if first == 0 or (found[first:] != ANTUMBRA).any():
+        raise ValueError(
+            f"umbra and then antumbra are not what lies on the axis from {behind[0]:g} to {behind[-1]:g}"
+        )
+    last, next_one = float(behind[first - 1]), float(behind[first])
+    return Quantity((last + next_one) / 2, (next_one - last) / 2, note="between two points on the axis")
+
+
 def _disks(regions: NDArray[np.integer[Any]]) -> list[NDArray[np.bool_]]:
     return [regions == UMBRA, regions == ANTUMBRA, (regions >= 0) & (regions != LIT)]
 
 
 def crossing(x: ArrayLike, y: ArrayLike, unit: str = "", note: str = "") -> Quantity:
-    """Where the straight line through points crosses zero, with its 95 % interval from what they scatter about it."""
+    """Where the straight line through points crosses zero, ± what they scatter about it.
+
+    The points are those of one map each, so ± is a spread (as wide as a 95 % t-interval of the fit), and no interval of
+    replicates.
+    """
     u, v = np.asarray(x, np.float64), np.asarray(y, np.float64)
     n, centre = len(u), u.mean()
     spread = float(((u - centre) ** 2).sum())

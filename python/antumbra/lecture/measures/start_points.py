@@ -38,7 +38,9 @@ def starts_measured(
             )
             lost &= (near.object == FLOOR) & ~near.free
             edge = float(step[lost].max()) if lost.any() else 0.0
-            found[f"foot_{of}"] = Quantity(1e3 * float(step[lost].sum()), 2e3 * edge, "mm", "± half a pixel")
+            found[f"foot_{of}"] = Quantity(
+                1e3 * float(step[lost].sum()), 2e3 * edge, "mm", "spread: half a pixel at each end"
+            )
     views = np.concatenate(viewing)
     return {**found, "viewing": _share(views, f"of {len(views):,} viewing rays")}
 

@@ -93,7 +93,6 @@ def exact(form: str, at: ArrayLike) -> NDArray[np.float64]:
 def _samples(run: Run, form: str, at: float, stream: int) -> Samples:
     close = at in CROSSING if form != "surfaces" else at == 1.0
     count = run.pick(Pick(2**17, 2**20) if close else Pick(2**14, 2**18))
-    run.rays += count
     scene = run.scene(low_room.low_room(at))
     return one_sample(scene, (0.0, 0.0, 0.0), count, run.seeded(stream), **ONE[form])
 

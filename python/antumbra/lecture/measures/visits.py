@@ -84,7 +84,6 @@ def visits_measured(
     [million rays/s], for rays that are "blocked" and "free"; and the share of rays where the two kinds of hit disagree.
     """
     asked = [shadow_rays(scene, size, np.random.default_rng(run.seeded(n))) for n in range(times)]
-    run.rays += sum(2 * len(each.targets) for each in asked)
     found = {"saved": mean_of([each.saved() for each in asked], unit="%")}
     for blocked, word in RAYS.items():
         chosen = [each.visits.blocked == blocked for each in asked]

@@ -11,6 +11,8 @@ from antumbra.lecture.measures.regions import Radii, radii_of
 from antumbra.lecture.run import Run
 from antumbra.lecture.stages import Frame, Strip
 
+# Height of the view to the sun [rad].
+ACROSS = 0.0124
 # What the view to the sun shows: nothing, the moon, the sun. A black moon could not be told from the sky.
 _BODIES = ("#141a2e", "#555c69", "#f2b705")
 
@@ -34,9 +36,12 @@ def moon_moved(run: Run, sky: Bodies, distances: Sequence[int], turns: int, widt
 
 
 def _frame(run: Run, sky: Bodies, d: int, at: Radii, turns: int, white: float) -> Frame:
-    says, covered, true = _says(at, d, turns), sky.covered(d, 0.0), sky.umbra(d)
+    says, true = _says(at, d, turns), sky.umbra(d)
     seen = run.image(f"sky-{d}").aov
     bodies = np.where(seen["emission"].max(2) > 0, 2, np.where(seen["albedo"].max(2) > 0, 1, 0))
+    # Of the sun's disk, as wide as it is from there, what the map shows.
+    disk = np.pi * (sky.sun / (sky.unit - sky.earth) / ACROSS * len(bodies)) ** 2
+    covered = max(0.0, 1 - float(np.count_nonzero(bodies == 2)) / disk)
     regions = run.aov(f"ground-{d}", "regions").astype(np.uint8)
     alts = (
         f"The earth with the moon's shadow, the moon at {d:,} km.",

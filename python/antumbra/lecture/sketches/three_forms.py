@@ -78,14 +78,17 @@ def plot(found: Mapping[str, Quantity], ratios: Sequence[float], shown: Sequence
     for form, name in FORMS.items():
         marks = [found[f"{form}-{at}"] for at in ratios]
         curves.append(curve_of(name, ratios, marks, partial(exact, form), _SAMPLED[form]))
+    best = sum(
+        found[f"surfaces-{at}"].value <= min(found[f"{form}-{at}"].value for form in FORMS) for at in ratios
+    )
     drawing = error_curves(
         curves,
         x_title="R/h",
         y_title="variance of one sample / E²",
         x_ticks=[0.1, 0.2, 0.4, 0.8, 1.45],
         chosen=FORMS["area"],
-        label="Variance against the size of the light: points of the light are best until R/h = 1.45, directions "
-        "above; all surfaces never.",
+        label="Variance against the size of the light: points of the light are best until it fills "
+        f"{found['even']} of the hemisphere, directions above; all surfaces at {best} of {len(ratios)} sizes.",
     )
     rows = {f"{at:g}": [found[f"share-{form}-{at}"] for form in FORMS] for at in shown}
     note = "Share of samples with Lₑ ≠ 0, at the middle of the floor. In the last two only these cost a shadow ray."

@@ -15,8 +15,10 @@ from antumbra.scene import Scene
 _WHAT = "boxes and triangles"
 
 
-def maps_of_visits(run: Run, scene: Scene, name: str, size: tuple[int, int], saved: Quantity) -> Row:
-    """Three maps of one shadow ray a pixel; `saved`: by blocked rays."""
+def maps_of_visits(
+    run: Run, scene: Scene, name: str, size: tuple[int, int], saved: Mapping[str, Quantity]
+) -> Row:
+    """Three maps of one shadow ray a pixel; `saved`: by "blocked" and by "free" ones."""
     asked = shadow_rays(scene, size)
     blocked, high = asked.visits.blocked, float(np.percentile(asked.total("closest"), 99))
     any_hit, closest = (asked.picture(asked.total(kind)) for kind in ("any", "closest"))
@@ -33,7 +35,7 @@ def maps_of_visits(run: Run, scene: Scene, name: str, size: tuple[int, int], sav
             values, where == 1, alt, caption, name=f"{name}-{kind}", ramps=ramps, high=high, unit=_WHAT
         )
 
-    alt = f"Saved: {saved:v} for blocked rays, nothing for free ones."
+    alt = f"Saved: {saved['blocked']:v} for blocked rays, {saved['free']:v} for free ones."
     less = run.map(
         closest - any_hit, alt, "saved by any hit", name=f"{name}-saved", ramp="amber", high=high / 2,
         unit=_WHAT, noise=True,
