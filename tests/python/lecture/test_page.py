@@ -72,7 +72,7 @@ def test_all_pictures_load_and_nothing_scrolls_sideways(open_page, size, scheme)
 
 
 def test_a_slider_moves_by_keyboard_and_says_its_value(open_page):
-    tab = open_page("#one")
+    tab = open_page("#one/answers")
     slider = tab.locator("#one input[type=range]")
     slider.focus()
     assert slider.get_attribute("aria-valuetext") == "i = 1: <half>, and more"
@@ -82,7 +82,7 @@ def test_a_slider_moves_by_keyboard_and_says_its_value(open_page):
     assert tab.locator("#one .frames > li.on").get_attribute("data-v") == "2"
     assert tab.locator("#one .key span").first.inner_text() == "fact 2"
     assert tab.locator("#one .draws svg:visible").count() == 1
-    assert address(tab) == "#one/i=2"
+    assert address(tab) == "#one/answers/i=2"
 
 
 def test_tabs_are_one_stop_and_answer_to_arrows(open_page):
@@ -98,11 +98,11 @@ def test_tabs_are_one_stop_and_answer_to_arrows(open_page):
 
 
 def test_a_row_and_its_ray_are_one_thing(open_page):
-    tab = open_page("#two/ray=1")
+    tab = open_page("#two/ray=1/answers")
     assert tab.locator("#two .hot").count() == 2
     tab.locator("#two tbody button").first.press("Enter")
     assert tab.locator("#two .rg1.hot").get_attribute("data-j") == "0"
-    assert address(tab) == "#two/ray=0"
+    assert address(tab) == "#two/ray=0/answers"
 
 
 def test_the_address_restores_what_was_seen(open_page):
@@ -119,6 +119,9 @@ def test_the_address_restores_what_was_seen(open_page):
 def test_predict_first_then_the_number(open_page):
     tab = open_page()
     assert not tab.locator("#one .ans").is_visible()
+    # Neither plots and tables nor readouts say it before.
+    assert tab.locator("#one :is(.data, .key span):visible").count() == 0
+    assert tab.locator("#one output").inner_text() == "i = 1"
     tab.locator("#one .q button").nth(1).click()
     assert tab.locator("#one .ans").is_visible()
     assert tab.locator("#one .verdict").inner_text().startswith("Not so")

@@ -38,7 +38,7 @@ def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
                                  ramp="amber", high=2.0, unit="uniform = 1", noise=True))  # fmt: skip
     count = len(run.images("area"))
     tabs = tabs_of("show", "What is shown", {
-        "mean": ("Mean − truth", off), "picture": ("One picture", pictures),
+        "picture": ("One picture", pictures), "mean": ("Mean − truth", off),
         "density": ("Density", densities),
     })  # fmt: skip
     rows = {f"{name}: {words}": (found[name], found[f"noise-{name}"]) for name, words in names}

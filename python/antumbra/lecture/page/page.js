@@ -19,7 +19,7 @@ const answers=on=>{figs.forEach(f=>open(f,on));$('#b-answers').setAttribute('ari
 $('#b-answers').onclick=e=>{const on=e.currentTarget.getAttribute('aria-pressed')!='true';answers(on);if(on)st.kv.answers='1';else delete st.kv.answers;write()};
 // a slider chooses a frame of its strip; its drawing and the facts of the key follow
 $$('.strip').forEach(s=>{const f=s.closest('.fig'),k=s.dataset.key,li=$$('.frames>li',s),dr=$$('.draws>svg',s),r=$('input',s),o=$('output',s);
- const show=i=>{li.forEach((l,j)=>l.classList.toggle('on',j==i));dr.forEach((d,j)=>d.classList.toggle('on',j==i));const d=li[i].dataset;o.textContent=d.says;r.value=i;r.setAttribute('aria-valuetext',d.says+(d.more||''));
+ const show=i=>{li.forEach((l,j)=>l.classList.toggle('on',j==i));dr.forEach((d,j)=>d.classList.toggle('on',j==i));const d=li[i].dataset;const[a,z]=d.says.split(/(: .*)/),e=D.createElement('i');e.textContent=z;o.replaceChildren(a,e);r.value=i;r.setAttribute('aria-valuetext',d.says+(d.more||''));
   const F=JSON.parse(d.facts||'[]');$$('.key[data-of="'+k+'"] [data-i]',f).forEach(e=>e.textContent=F[e.dataset.i])};
  r.oninput=()=>{show(+r.value);set(f.id,k,li[r.value].dataset.v)};
  ctl.push([f.id,k,v=>{const i=li.findIndex(l=>l.dataset.v==v);show(i<0?+s.dataset.start:i)}])});
