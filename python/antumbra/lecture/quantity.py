@@ -9,8 +9,9 @@ from typing import Any
 
 @dataclass(frozen=True)
 class Quantity:
-    """`value` ± `error`, half of its 95 % interval (0: exact, infinite: not known); `unit` "%" writes per cent.
+    """`value` ± `error` (95 %; 0: exact, infinite: not known); `unit` "%" writes per cent.
 
+    `low` and `high`: the ends of its interval where they are not equally far; `error` is then the larger distance.
     In the sentences of a figure `{name}` writes the error with two digits, `{name:1}` with one, `{name:v}` without it.
 
     >>> f"{Quantity(3.999, 0.014)} {Quantity(3.999, 0.014):1} {Quantity(0.5, unit='%'):v}"
@@ -21,11 +22,14 @@ class Quantity:
     error: float = 0.0
     unit: str = ""
     note: str = ""
+    low: float | None = None
+    high: float | None = None
 
     @property
     def interval(self) -> tuple[float, float]:
         """The ends of its 95 % interval."""
-        return self.value - self.error, self.value + self.error
+        low = self.value - self.error if self.low is None else self.low
+        return low, self.value + self.error if self.high is None else self.high
 
     def number(self, digits: int = 2) -> tuple[str, str]:
         """The value and its error as text, the error in so many digits; "" for no error."""
@@ -57,8 +61,9 @@ class Quantity:
 
     def facts(self) -> dict[str, Any]:
         """For JSON: its fields and its text."""
-        known = self.error if math.isfinite(self.error) else None
-        return {**asdict(self), "error": known, "text": str(self)}
+        ends = zip(("error", "low", "high"), (self.error, *self.interval), strict=True)
+        known = {name: end if math.isfinite(end) else None for name, end in ends}
+        return {**asdict(self), **known, "text": str(self)}
 
 
 def minus(text: str) -> str:

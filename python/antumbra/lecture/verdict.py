@@ -32,9 +32,14 @@ def verdict(claim: Claim, measured: Mapping[str, Quantity]) -> Verdict:
     """By the 95 % interval of the claim's quantity, less its bound (with the interval of that, if it was measured)."""
     bound = next(b for b in (claim.near, claim.below, claim.above) if b is not None)
     other = measured[bound] if isinstance(bound, str) else Quantity(bound)
-    value = measured[claim.of].value - other.value
-    error = math.hypot(measured[claim.of].error, other.error)
-    interval = Interval(value, value - error, value + error)
+    interval = _difference(measured[claim.of], other)
     if claim.near is not None:
         return of_interval(interval, near=0.0, within=claim.within)
     return of_interval(interval, below=0.0) if claim.below is not None else of_interval(interval, above=0.0)
+
+
+def _difference(a: Quantity, b: Quantity) -> Interval:
+    """a − b of two independent quantities: distances to the ends that work the same way add in the square."""
+    value, (low, high), (least, most) = a.value - b.value, a.interval, b.interval
+    down, up = math.hypot(a.value - low, most - b.value), math.hypot(high - a.value, b.value - least)
+    return Interval(value, value - down, value + up)

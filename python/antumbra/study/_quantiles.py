@@ -1,4 +1,4 @@
-"""Quantiles of Student's t and of χ² for whole degrees of freedom, from their finite sums."""
+"""Quantiles of Student's t for whole degrees of freedom, from its finite sums."""
 
 from __future__ import annotations
 
@@ -27,23 +27,6 @@ def t_inside(t: float, dof: int) -> float:
         total += term
         term *= cosine**2 * (j + 1) / (j + 2)
     return 2 / math.pi * (angle + sine * total) if odd else sine * total
-
-
-@cache
-def chi2_quantile(p: float, dof: int) -> float:
-    """The number below which χ² with `dof` degrees of freedom lies with probability p in (0, 1)."""
-    return _root(lambda x: chi2_below(x, dof), p)
-
-
-def chi2_below(x: float, dof: int) -> float:
-    """P(χ² ≤ x): one minus the finite sums of Abramowitz and Stegun 26.4.4 and 26.4.5."""
-    odd = dof % 2
-    # Each term is (x/2)^j e^(−x/2) / Γ(j + 1), with whole j for even and half j for odd degrees of freedom.
-    total = math.erfc(math.sqrt(x / 2)) if odd else 0.0
-    for k in range((dof + odd) // 2 - odd):
-        j = k + odd / 2
-        total += math.exp(j * math.log(x / 2) - x / 2 - math.lgamma(j + 1)) if x > 0 else float(j == 0)
-    return 1 - total
 
 
 def _root(rising: Callable[[float], float], target: float) -> float:

@@ -14,7 +14,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from antumbra.study._quantiles import chi2_quantile, t_quantile
+from antumbra.study._quantiles import t_quantile
 
 LEVEL = 0.95
 Verdict = Literal["supported", "undecided", "not supported"]
@@ -78,20 +78,11 @@ def mean(replicates: ArrayLike, level: float = LEVEL) -> Interval:
     return Interval(centre, centre - half, centre + half)
 
 
-def paired_difference(a: ArrayLike, b: ArrayLike, level: float = LEVEL) -> Interval:
-    """Mean of a − b, both (K, …), replicate by replicate: what the two share (a seed, a reference) cancels."""
-    first, second = _per_replicate(a), _per_replicate(b)
-    if first.shape != second.shape:
-        raise ValueError(f"a has {len(first)} replicates, b has {len(second)}: pairs are needed")
-    return mean(first - second, level)
-
-
 def variance(replicates: ArrayLike, level: float = LEVEL) -> Interval:
     """Variance of one replicate of (K, …), K ≥ 3, averaged over the cells: s² = Σ(x_k − x̄)²/(K−1).
 
     The interval is the jackknife's (Miller 1974, eq. 2.2): its pseudo-values (K (x_k − x̄)² − s²)/(K−2), averaged
-    over the cells, are treated as K independent numbers. Meant for many cells; of one normal number, `normal_variance`
-    is exact.
+    over the cells, are treated as K independent numbers. Meant for many cells.
     """
     x = np.asarray(replicates, np.float64)
     count = len(x)
@@ -150,17 +141,6 @@ def _jackknife(found: NDArray[np.float64], level: float) -> Interval:
     return Interval(float(found[0]), float(found[0]) - half, float(found[0]) + half)
 
 
-def normal_variance(numbers: ArrayLike, level: float = LEVEL) -> Interval:
-    """Variance of K normal numbers with its exact interval (K−1)s²/χ²(K−1)."""
-    x = np.asarray(numbers, np.float64).ravel()
-    if len(x) < 2:
-        raise ValueError("at least 2 numbers are needed for a variance")
-    dof = len(x) - 1
-    squares = float(((x - x.mean()) ** 2).sum())
-    low, high = (squares / chi2_quantile(p, dof) for p in ((1 + level) / 2, (1 - level) / 2))
-    return Interval(squares / dof, low, high)
-
-
 def squared_errors(
     replicates: ArrayLike, reference: ArrayLike, reference_variance: ArrayLike = 0.0
 ) -> NDArray[np.float64]:
@@ -174,25 +154,19 @@ def squared_errors(
     return _per_replicate(difference**2) - own
 
 
-def mse(
-    replicates: ArrayLike, reference: ArrayLike, reference_variance: ArrayLike = 0.0, level: float = LEVEL
-) -> Interval:
-    """Mean squared error against a reference (as in `squared_errors`), with the t-interval over replicates.
-
-    The noise of the reference, which all replicates share, is not in it: `reference_half` and `error_half` have it.
-    """
-    return mse_of(squared_errors(replicates, reference, reference_variance), level)
-
-
 def mse_of(squared: ArrayLike, level: float = LEVEL, own_half: float = 0.0) -> Interval:
-    """The same from the squared errors of each replicate, (K,); `own_half`, the reference's, is added in quadrature."""
+    """Mean squared error with its t-interval, from `squared_errors` (K,).
+
+    The noise of the reference, which all replicates share, is not in those: its `own_half`, of `reference_half` or
+    `error_half`, is added in quadrature.
+    """
     found = mean(squared, level)
     half = math.hypot(found.half, own_half)
     return Interval(found.value, max(found.value - half, 0.0), found.value + half)
 
 
 def reference_half(replicates: ArrayLike, references: ArrayLike, level: float = LEVEL) -> float:
-    """Half the interval of `mse` that the noise of the reference gives: the mean of R replicates (R, …), R ≥ 3.
+    """Half the interval of `mse_of` that the noise of the reference gives: the mean of R replicates (R, …), R ≥ 3.
 
     The jackknife's over those (as in `variance`): without the j-th, the mean squared error, less the variance of the
     mean of those that are left, differs by the average cell of (x̄ − r̄₍ⱼ₎)² − (x̄ − r̄)², less that of the variances.
@@ -218,13 +192,6 @@ def error_half(replicates: ArrayLike, reference: ArrayLike, error: ArrayLike, le
     with_d = float(((own * np.abs(d)).sum(axis=-1) ** 2).sum())
     variance = max(4 * with_d - 2 * square, 2 * square)
     return float(NormalDist().inv_cdf((1 + level) / 2)) * math.sqrt(variance) / d.size
-
-
-def rmse(
-    replicates: ArrayLike, reference: ArrayLike, reference_variance: ArrayLike = 0.0, level: float = LEVEL
-) -> Interval:
-    """Root of the mean squared error; the ends of its interval are the roots of those of `mse`."""
-    return root(mse(replicates, reference, reference_variance, level))
 
 
 def root(of: Interval) -> Interval:

@@ -5,8 +5,12 @@ from __future__ import annotations
 import pytest
 
 from antumbra.lecture.figure import Claim, Figure, Question
+from antumbra.lecture.measures.ratio import excess, ratio
+from antumbra.lecture.measures.replicates import of_interval
 from antumbra.lecture.quantity import Quantity, written
 from antumbra.lecture.verdict import verdict
+from antumbra.study import statistics
+from antumbra.study.statistics import Interval
 
 
 @pytest.mark.parametrize(
@@ -50,6 +54,20 @@ def test_numbers_without_error_have_three_digits():
 def test_a_claim_is_undecided_where_its_interval_holds_both_answers(claim, value, error, word):
     measured = {"x": Quantity(value, error), "other": Quantity(2.0, 0.3)}
     assert verdict(Claim("It is so.", "x", **claim), measured) == word
+
+
+def test_the_ends_of_a_root_or_ratio_decide_each_for_itself():
+    # Of the root of 1 (0.19 … 1.21) the lower end is further away than the upper one.
+    of = of_interval(statistics.root(Interval(1.0, 0.19, 1.21)))
+    assert of.interval == pytest.approx((0.19**0.5, 1.1)) and of.error == pytest.approx(1 - 0.19**0.5)
+    assert verdict(Claim("It is so.", "x", below=1.15), {"x": of}) == "supported"
+    assert verdict(Claim("It is so.", "x", above=0.5), {"x": of}) == "undecided"
+    # The difference of two: 1 less 0.8 (0.7 … 1.0) reaches down to 0.2 − √(0.56² + 0.2²), up to 0.2 + √(0.1² + 0.1²).
+    both = {"x": of, "y": Quantity(0.8, 0.2, low=0.7, high=1.0)}
+    assert verdict(Claim("It is so.", "x", below="y"), both) == "undecided"
+    assert excess(of).interval == pytest.approx((0.19**0.5 - 1, 0.1))
+    twice = ratio(Quantity(2.0, 0.1), Quantity(1.0, 0.5))
+    assert twice.interval[1] - 2 > 2 - twice.interval[0] and twice.error == twice.interval[1] - 2
 
 
 def test_declarations_that_ask_nothing_are_refused():

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from antumbra.study import statistics as st
-from antumbra.study._quantiles import chi2_quantile, t_quantile
+from antumbra.study._quantiles import t_quantile
 
 M = 2_000
 ALLOWED = 3.3 * math.sqrt(0.95 * 0.05 / M)
@@ -22,25 +22,16 @@ def coverage(intervals, truth):
     return np.mean([found.contains(truth) for found in intervals])
 
 
-# Of printed tables (Abramowitz and Stegun 26.8 and 26.10, and NIST's handbook 1.3.6.7), to their last digit.
-@pytest.mark.parametrize(
-    ("dof", "t975", "chi95"),
-    [(1, 12.706, 3.841), (2, 4.303, 5.991), (3, 3.182, 7.815), (7, 2.365, 14.067), (30, 2.042, 43.773)],
-)
-def test_quantiles_are_those_of_the_tables(dof, t975, chi95):
+# Of printed tables (Abramowitz and Stegun 26.10, and NIST's handbook 1.3.6.7), to their last digit.
+@pytest.mark.parametrize(("dof", "t975"), [(1, 12.706), (2, 4.303), (3, 3.182), (7, 2.365), (30, 2.042)])
+def test_quantiles_are_those_of_the_tables(dof, t975):
     assert t_quantile(0.975, dof) == pytest.approx(t975, abs=6e-4)
     assert t_quantile(0.025, dof) == -t_quantile(0.975, dof)
-    assert chi2_quantile(0.95, dof) == pytest.approx(chi95, abs=6e-4)
 
 
 def test_the_interval_of_a_mean_covers_it():
     x = np.random.default_rng(1).normal(3.0, 2.0, (M, 5))
     assert abs(coverage(map(st.mean, x), 3.0) - 0.95) < ALLOWED
-
-
-def test_the_exact_interval_of_a_variance_covers_it():
-    x = np.random.default_rng(2).normal(3.0, 2.0, (M, 4))
-    assert abs(coverage(map(st.normal_variance, x), 4.0) - 0.95) < ALLOWED
 
 
 def test_the_jackknife_interval_of_a_picture_s_variance_covers_it():
@@ -67,11 +58,10 @@ def test_the_reference_s_own_noise_is_taken_off_an_error():
     truth = random.uniform(0, 1, 4_000)
     reference = truth + random.normal(0, 0.5, truth.shape)
     x = truth + random.normal(0, 1.0, (10, *truth.shape))
-    plain, found = st.mse(x, reference), st.mse(x, reference, 0.25)
+    plain, found = (st.mse_of(st.squared_errors(x, reference, own)) for own in (0.0, 0.25))
     # Of 4,000 cells, the average square of the reference's noise is right to 0.25·√(2/4000) = 0.0056; four of those.
     assert abs(found.value - 1.0) < 4 * (0.0056 + found.half / 2)
     assert plain.value - found.value == pytest.approx(0.25, rel=1e-12)
-    assert st.rmse(x, reference, 0.25).value == pytest.approx(math.sqrt(found.value))
 
 
 @pytest.mark.parametrize("sigma", [0.0, 0.1])
@@ -211,5 +201,3 @@ def test_what_cannot_be_answered_is_told():
         st.variance([[1.0], [2.0]])
     with pytest.raises(ValueError, match="above 0"):
         st.slope([1, 2], [[1.0, 0.0], [1.0, 1.0]])
-    with pytest.raises(ValueError, match="pairs"):
-        st.paired_difference([1, 2, 3], [1, 2])

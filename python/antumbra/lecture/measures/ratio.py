@@ -4,14 +4,19 @@ from __future__ import annotations
 
 import math
 
+from antumbra.lecture.measures.replicates import of_interval
 from antumbra.lecture.quantity import Quantity
+from antumbra.study import statistics
+from antumbra.study.statistics import Interval
 
 
 def ratio(a: Quantity, b: Quantity, unit: str = "", note: str = "") -> Quantity:
-    """a / b of two independent quantities; relative errors add in the square."""
-    value = a.value / b.value
-    error = abs(value) * math.hypot(a.error / a.value, b.error / b.value)
-    return Quantity(value, error, unit, note)
+    """a / b of two independent positive quantities, as `statistics.ratio`."""
+    return of_interval(statistics.ratio(_interval(a), _interval(b)), unit, note)
+
+
+def _interval(a: Quantity) -> Interval:
+    return Interval(a.value, *a.interval)
 
 
 def times(a: Quantity, b: Quantity, unit: str = "", note: str = "") -> Quantity:
@@ -21,4 +26,5 @@ def times(a: Quantity, b: Quantity, unit: str = "", note: str = "") -> Quantity:
 
 def excess(share: Quantity) -> Quantity:
     """A ratio less 1, in per cent."""
-    return Quantity(share.value - 1.0, share.error, "%", share.note)
+    low, high = share.interval
+    return of_interval(Interval(share.value - 1.0, low - 1.0, high - 1.0), "%", share.note)
