@@ -6,7 +6,7 @@ use std::collections::HashMap;
 
 use antumbra::light::Light;
 use antumbra::math::{DVec3, Rgb, real};
-use antumbra::scene::{Alpha, Body, Level, Projection, SceneBuilder, Surface};
+use antumbra::scene::{Alpha, Body, Lens, Level, Projection, SceneBuilder, Surface};
 use antumbra::trace::Shape;
 use antumbra_io::{Format, Limits, MemoryFiles, ReadError, read};
 
@@ -61,6 +61,26 @@ fn a_sensor_looks_along_z_with_x_to_the_left() {
     // 90° across 200 pixels are 2·atan(½) down 100.
     let Projection::Perspective { vertical_fov } = camera.projection else { panic!() };
     assert!((vertical_fov - 2.0 * real::atan(0.5)).abs() < 1e-12);
+}
+
+#[test]
+fn a_thinlens_has_an_opening_and_a_focus() {
+    let camera = |plugin: &str, inside: &str| {
+        let s = scene(&format!("<sensor type='{plugin}'>{inside}</sensor><shape type='cube'/>"));
+        assert!(warnings(&s).iter().all(|w| w.contains("no emitter")), "{:?}", warnings(&s));
+        s.cameras[0].clone()
+    };
+    let lens = "<float name='aperture_radius' value='0.1'/><float name='focus_distance' value='3'/>";
+    assert_eq!(camera("thinlens", lens).lens, Some(Lens { radius: 0.1, focus: 3.0 }));
+    let scaled = format!("{lens}<transform name='to_world'><scale value='2'/></transform>");
+    assert_eq!(camera("thinlens", &scaled).lens, Some(Lens { radius: 0.2, focus: 6.0 }));
+    let shift = "<float name='principal_point_offset_x' value='0.25'/>";
+    let shifted = camera("perspective", shift);
+    assert_eq!((shifted.lens, shifted.shift), (None, [0.25, 0.0]));
+    let error = refused(
+        "<sensor type='thinlens'><float name='focus_distance' value='0'/></sensor><shape type='cube'/>",
+    );
+    assert!(error.contains("\"focus_distance\" = 0 of sensor \"thinlens\": it must be above 0"), "{error}");
 }
 
 #[test]

@@ -17,6 +17,15 @@ pub enum Projection {
     },
 }
 
+/// A thin lens about the eye, across the direction of view.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lens {
+    /// Radius of its opening, in scene units; 0 = a pinhole.
+    pub radius: f64,
+    /// From the eye to the plane that is sharp, along the direction of view, in scene units.
+    pub focus: f64,
+}
+
 /// A camera: looks from `eye` toward `look_at`, `up` upwards in the picture.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Camera {
@@ -30,6 +39,10 @@ pub struct Camera {
     pub up: DVec3,
     /// Projection.
     pub projection: Projection,
+    /// What blurs all that is not in focus; only with a perspective.
+    pub lens: Option<Lens>,
+    /// How far the middle of the picture lies right of and below the direction of view, in widths and heights.
+    pub shift: [f64; 2],
     /// Size of the picture that goes with it [pixels], if the scene names one.
     pub size: Option<[u32; 2]>,
     /// Width over height, if the file names one (used when no size is given).
@@ -45,6 +58,8 @@ impl Camera {
             look_at,
             up: DVec3::Y,
             projection: Projection::Perspective { vertical_fov: vertical_fov.to_radians() },
+            lens: None,
+            shift: [0.0; 2],
             size: None,
             aspect: None,
         }
@@ -59,6 +74,8 @@ impl Camera {
             look_at: eye - world_from_node.vector(DVec3::Z).normalize_or_zero(),
             up: world_from_node.vector(DVec3::Y),
             projection,
+            lens: None,
+            shift: [0.0; 2],
             size: None,
             aspect: None,
         }
@@ -82,6 +99,17 @@ impl Camera {
         }
         if self.is_along_up() {
             return Some("it looks straight along its up direction".into());
+        }
+        if let Some(Lens { radius, focus }) = self.lens {
+            if !(radius >= 0.0 && radius.is_finite() && focus > 0.0 && focus.is_finite()) {
+                return Some(format!("a lens of radius {radius}, in focus at {focus}"));
+            }
+            if matches!(self.projection, Projection::Orthographic { .. }) {
+                return Some("a lens for parallel rays".into());
+            }
+        }
+        if !self.shift.iter().all(|s| s.is_finite()) {
+            return Some(format!("a picture shifted by {:?}", self.shift));
         }
         match self.projection {
             Projection::Perspective { vertical_fov }
@@ -150,5 +178,10 @@ mod tests {
         let camera = Camera { up: DVec3::ZERO, look_at: DVec3::ZERO, ..camera };
         assert_eq!(camera.fault().unwrap(), "up is 0, 0, 0: it points nowhere");
         assert_eq!(camera.other_up(), None);
+        let camera = Camera::perspective(DVec3::X, DVec3::ZERO, 40.0);
+        for (radius, focus) in [(-1.0, 1.0), (f64::NAN, 1.0), (1.0, 0.0), (1.0, f64::INFINITY)] {
+            let camera = Camera { lens: Some(Lens { radius, focus }), ..camera.clone() };
+            assert!(camera.fault().unwrap().starts_with("a lens of radius"));
+        }
     }
 }

@@ -17,7 +17,7 @@ mod tangents;
 
 pub use areas::{SurfaceAreas, SurfacePoint};
 pub use builder::{Body, Mesh, MeshId, Object, SceneBuilder};
-pub use camera::{Camera, Projection};
+pub use camera::{Camera, Lens, Projection};
 pub use material::{Alpha, Emission, Material, MaterialId, NormalMap, Surface, TextureId, blended};
 pub use message::{Level, Message, SceneError, nearest};
 pub use scene::{Emits, LightNames, Placed, Scene, SceneMesh, SceneVisibility};

@@ -1,13 +1,13 @@
 //! A camera: one receiver where each viewing ray meets a surface.
 
-use antumbra_math::{DVec3, Rgb, Vec3, real};
+use antumbra_math::{DVec2, DVec3, Rgb, Vec3, real, warp};
 use antumbra_trace::NO_PRIM;
 
 use super::{Looking, Scratch, Seen, Sensor, Tile, grid};
 use crate::film::{Film, Planes};
 use crate::receiver::Receiver;
 use crate::sampler::{Use, stream};
-use crate::scene::{Camera, Projection, Ray};
+use crate::scene::{Camera, Lens, Projection, Ray};
 
 /// Sides of a tile: enough rays for a batch, small enough to keep all cores busy.
 const TILE: [u32; 2] = [32, 32];
@@ -18,7 +18,7 @@ pub enum Viewing {
     /// Over the pixel filter.
     #[default]
     Filter,
-    /// All through the centre.
+    /// All through the centre, and through the middle of the lens.
     Centre,
 }
 
@@ -58,6 +58,9 @@ pub struct CameraSensor {
     /// Half the height of the picture at distance 1 (perspective) or in scene units (orthographic).
     half_height: f64,
     parallel: bool,
+    lens: Option<Lens>,
+    /// From the direction of view to the middle of the picture [pixels].
+    shift: [f64; 2],
     view: View,
     profile: Profile,
 }
@@ -72,6 +75,7 @@ impl CameraSensor {
             Projection::Orthographic { height } => (height / 2.0, true),
         };
         let profile = Profile::of(view.filter);
+        let [width, height] = view.size.map(f64::from);
         CameraSensor {
             eye: camera.eye,
             right,
@@ -79,13 +83,23 @@ impl CameraSensor {
             forward,
             half_height,
             parallel,
+            lens: camera.lens.filter(|lens| lens.radius > 0.0),
+            shift: [camera.shift[0] * width, camera.shift[1] * height],
             view,
             profile,
         }
     }
 
-    /// Origin and unit direction of the viewing ray through (x, y) in pixels of the whole picture.
+    /// Origin and unit direction of the viewing ray through (x, y) in pixels of the whole picture and the middle of the
+    /// lens.
     pub fn ray(&self, x: f64, y: f64) -> (Vec3, Vec3) {
+        self.ray_through(x, y, DVec2::ZERO)
+    }
+
+    /// As [`CameraSensor::ray`], through a point of the lens right of and above its middle: all rays through (x, y) meet
+    /// where that of the middle is in focus.
+    fn ray_through(&self, x: f64, y: f64, on_lens: DVec2) -> (Vec3, Vec3) {
+        let (x, y) = (x + self.shift[0], y + self.shift[1]);
         let [w, h] = self.view.size.map(f64::from);
         let right = (2.0 * x / w - 1.0) * self.half_height * (w / h);
         let up = (1.0 - 2.0 * y / h) * self.half_height;
@@ -93,7 +107,20 @@ impl CameraSensor {
         if self.parallel {
             ((self.eye + across).as_vec3(), self.forward.as_vec3())
         } else {
-            (self.eye.as_vec3(), (self.forward + across).normalize().as_vec3())
+            let (mut eye, mut toward) = (self.eye, self.forward + across);
+            if let (Some(lens), true) = (self.lens, on_lens != DVec2::ZERO) {
+                let aside = self.right * on_lens.x + self.up * on_lens.y;
+                (eye, toward) = (eye + aside, toward * lens.focus - aside);
+            }
+            (eye.as_vec3(), toward.normalize().as_vec3())
+        }
+    }
+
+    /// A point of the lens for two numbers in [0, 1), which are asked for only where there is one.
+    fn on_lens(&self, u: impl FnOnce() -> [f32; 2]) -> DVec2 {
+        match (self.lens, self.view.viewing) {
+            (Some(lens), Viewing::Filter) => warp::disk(u()).as_dvec2() * lens.radius,
+            _ => DVec2::ZERO,
         }
     }
 
@@ -129,8 +156,9 @@ impl Sensor for CameraSensor {
             let stream = stream_of(pixel);
             scratch.streams.push(stream);
             let offset = self.offset(looking.sampler.pair(stream, index, of, Use::Pixel.at(0)));
-            let (o, d) =
-                self.ray(f64::from(pixel[0]) + 0.5 + offset[0], f64::from(pixel[1]) + 0.5 + offset[1]);
+            let on_lens = self.on_lens(|| looking.sampler.pair(stream, index, of, Use::Lens.at(0)));
+            let [x, y] = [0, 1].map(|k| f64::from(pixel[k]) + 0.5 + offset[k]);
+            let (o, d) = self.ray_through(x, y, on_lens);
             let number = stream ^ index.wrapping_mul(0x9e37_79b9);
             scratch.rays.push_ray(o.to_array(), d.to_array(), f32::INFINITY, NO_PRIM, number);
         }
@@ -292,5 +320,55 @@ mod tests {
         let (_, d) = CameraSensor::new(&camera, view).ray(32.0, 24.0);
         let toward = (camera.look_at - camera.eye).normalize().as_vec3();
         assert!((d - toward).length() < 1e-6);
+    }
+
+    /// A camera with a lens of radius 0.2 and a picture of 64 × 48 pixels, 0.4 × 0.3 at distance 1.
+    fn with_lens(focus: f64, shift: [f64; 2]) -> CameraSensor {
+        let fov = 2.0 * real::atan(0.15);
+        let eye = DVec3::new(1.0, 2.0, 3.0);
+        let pinhole = Camera::perspective(eye, eye - DVec3::Z, fov.to_degrees());
+        let camera = Camera { lens: Some(Lens { radius: 0.2, focus }), shift, ..pinhole };
+        let view =
+            View { size: [64, 48], crop: [0, 0, 64, 48], viewing: Viewing::Filter, filter: Filter::Box };
+        CameraSensor::new(&camera, view)
+    }
+
+    #[test]
+    fn rays_of_a_point_in_focus_meet_and_others_part_as_a_thin_lens_parts_them() {
+        let focus = 2.5;
+        let sensor = with_lens(focus, [0.0; 2]);
+        for depth in [1.0, 2.5, 7.0] {
+            let at = |on_lens: DVec2| {
+                let (o, d) = sensor.ray_through(50.0, 11.0, on_lens);
+                let (o, d) = (o.as_dvec3(), d.as_dvec3());
+                o + d * ((depth + o.z - 3.0) / -d.z)
+            };
+            let ends = [DVec2::X, DVec2::Y].map(|axis| at(axis * 0.2).distance(at(axis * -0.2)));
+            // Similar triangles on both sides of the plane in focus; f32 rays, 2⁻²³ of lengths up to 10.
+            let blur = 0.4 * (depth - focus).abs() / focus;
+            assert!(ends.iter().all(|end| (end - blur).abs() < 1e-5), "{depth} {ends:?} {blur}");
+        }
+    }
+
+    #[test]
+    fn a_lens_is_a_disk_and_without_one_no_number_is_drawn() {
+        let sensor = with_lens(1.0, [0.0; 2]);
+        let n = 32;
+        let points = (0..n * n).map(|i| [(i % n) as f32 + 0.5, (i / n) as f32 + 0.5].map(|u| u / n as f32));
+        let points: Vec<DVec2> = points.map(|u| sensor.on_lens(|| u)).collect();
+        assert!(points.iter().all(|p| p.length() < 0.2));
+        // ⟨r²⟩ = R²/2 of an even disk; a grid of 32 × 32 is within 1/32² of it.
+        let square = points.iter().map(|p| p.length_squared()).sum::<f64>() / f64::from(n * n);
+        assert!((square / 0.02 - 1.0).abs() < 2e-3, "{square}");
+        let pinhole = CameraSensor { lens: None, ..sensor };
+        assert_eq!(pinhole.on_lens(|| panic!("a pinhole needs no number")), DVec2::ZERO);
+    }
+
+    #[test]
+    fn a_shift_moves_the_picture_and_keeps_its_perspective() {
+        let (shifted, straight) = (with_lens(1.0, [0.25, -0.5]), with_lens(1.0, [0.0; 2]));
+        assert_eq!(shifted.ray(10.0, 30.0), straight.ray(26.0, 6.0));
+        // What stands straight ahead is a quarter left of the middle, a half below it.
+        assert!((shifted.ray(16.0, 48.0).1 - Vec3::NEG_Z).length() < 1e-6);
     }
 }

@@ -17,6 +17,7 @@ mod glass;
 mod instances;
 mod judge;
 mod lengths;
+mod lens;
 mod masks;
 mod normal_maps;
 mod pictures;

@@ -1,6 +1,6 @@
 //! Sensors: perspective and thinlens.
 
-use antumbra::scene::{Camera, Projection};
+use antumbra::scene::{Camera, Lens, Projection};
 use antumbra_math::{DVec3, real};
 
 use super::Reader;
@@ -30,6 +30,32 @@ impl<'a> Reader<'a> {
 
 /// A pinhole.
 fn perspective<'a>(reader: &mut Reader<'a>, element: &'a Element, size: [u32; 2]) -> Result<(), ReadError> {
+    element.pass_over(&["focus_distance"]);
+    looking(reader, element, size, None)
+}
+
+/// A lens; it is in focus as far as the scene goes unless the file says otherwise.
+fn thinlens<'a>(reader: &mut Reader<'a>, element: &'a Element, size: [u32; 2]) -> Result<(), ReadError> {
+    let far = element.float("far_clip", 1e4)?;
+    let (radius, focus) = (element.float("aperture_radius", 0.0)?, element.float("focus_distance", far)?);
+    for (name, x, fits) in
+        [("aperture_radius", radius, radius >= 0.0), ("focus_distance", focus, focus > 0.0)]
+    {
+        if !(fits && x.is_finite()) {
+            let what = format!("\"{name}\" = {x} of {}: it must be above 0", element.words());
+            return Err(element.at.error(what));
+        }
+    }
+    looking(reader, element, size, Some(Lens { radius, focus }))
+}
+
+/// Adds a camera that looks along z.
+fn looking<'a>(
+    reader: &mut Reader<'a>,
+    element: &'a Element,
+    size: [u32; 2],
+    lens: Option<Lens>,
+) -> Result<(), ReadError> {
     let [w, h] = size.map(f64::from);
     let half = half_height(element, w, h)?;
     for name in ["near_clip", "far_clip"] {
@@ -37,12 +63,9 @@ fn perspective<'a>(reader: &mut Reader<'a>, element: &'a Element, size: [u32; 2]
             reader.said.note(element.at.words(), format!("\"{name}\" is not read: nothing is cut off"));
         }
     }
-    element.pass_over(&["shutter_open", "shutter_close", "focus_distance"]);
-    for name in ["principal_point_offset_x", "principal_point_offset_y"] {
-        if element.float(name, 0.0)? != 0.0 {
-            reader.said.warn(element.at.words(), format!("\"{name}\" is not read: drawn as 0"));
-        }
-    }
+    element.pass_over(&["shutter_open", "shutter_close"]);
+    let shift = |name| element.float(name, 0.0);
+    let shift = [shift("principal_point_offset_x")?, shift("principal_point_offset_y")?];
     let world = reader.context.root.after(&element.transform("to_world")?);
     if world.mirrors() {
         reader
@@ -53,24 +76,20 @@ fn perspective<'a>(reader: &mut Reader<'a>, element: &'a Element, size: [u32; 2]
     let (Some(forward), Some(up)) = (axis(DVec3::Z), axis(DVec3::Y)) else {
         return Err(element.at.error("the sensor's transform is singular"));
     };
-    let eye = world.translation;
+    let (eye, scale) = (world.translation, world.vector(DVec3::Z).length());
     // The distance to the point looked at is only a matter of digits: as far as the eye stands from 0.
     let far = eye.length().max(1.0);
     let camera = Camera {
         name: element.attribute("id").into(),
         up,
+        // A transform that scales the sensor scales its lens.
+        lens: lens.map(|l| Lens { radius: l.radius * scale, focus: l.focus * scale }),
+        shift,
         projection: Projection::Perspective { vertical_fov: 2.0 * real::atan(half) },
         ..Camera::perspective(eye, eye + forward * far, 40.0)
     };
     reader.scene.cameras.push(camera.sized(size[0], size[1]));
     Ok(())
-}
-
-/// A pinhole in place of a lens.
-fn thinlens<'a>(reader: &mut Reader<'a>, element: &'a Element, size: [u32; 2]) -> Result<(), ReadError> {
-    element.property("aperture_radius");
-    reader.said.warn(element.at.words(), "the lens of a thinlens sensor is not read: everything is sharp");
-    perspective(reader, element, size)
 }
 
 /// Half the height of the picture at distance 1.
