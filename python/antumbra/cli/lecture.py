@@ -18,6 +18,7 @@ from antumbra.cli._command import Option, Verb, output_option
 if TYPE_CHECKING:
     import rich.progress
 
+    from antumbra.lecture.figure import Figure
     from antumbra.lecture.make import Lecture, Step
 
 ORDER = 2
@@ -34,14 +35,19 @@ def run(
     seed: int,
     quiet: bool,
     verbose: bool,
+    list_: bool = False,
 ) -> int:
-    """Render the lecture: each FIGURE (all without names) with its question, pictures, number and claims, on one page.
+    """Render the lecture: each FIGURE (all without names; --list names them) with its question, pictures, number and
+    claims, on one page.
 
     What is finished is kept: the same command goes on where it was stopped.
     """
     from antumbra.lecture import catalog
     from antumbra.lecture.make import Lecture
 
+    if list_:
+        print(_listed(catalog.chosen(figure)))
+        return 0
     lecture = Lecture(Path(output), catalog.chosen(figure), quick=quick, seed=seed, single=single_file)
     try:
         lecture.folder.check(_ROOM[quick])
@@ -83,6 +89,13 @@ VERB = Verb(
             group="Files",
             is_flag=True,
             help="index.html holds the pictures (at most 25 MB)",
+        ),
+        Option(
+            "--list",
+            "list_",
+            group="Teaching",
+            is_flag=True,
+            help="only name the figures: number, title, seconds (coarse, full)",
         ),
         Option(
             "--quick",
@@ -157,6 +170,20 @@ class _Failed:
         self._bar.say(f"error: {name} failed and is left out ({what})")
         if self._verbose:
             self._bar.say("".join(traceback.format_exception(problem)).rstrip())
+
+
+def _listed(figures: Mapping[str, Figure]) -> str:
+    """One line a figure, seconds as on two cores."""
+    rows = [
+        (str(each.number), name, each.title, f"{each.seconds.quick:g} s", f"{each.seconds.full:g} s")
+        for name, each in figures.items()
+    ]
+    rows.insert(0, ("", "FIGURE", "title", "--quick", "full"))
+    wide = [max(len(row[column]) for row in rows) for column in range(5)]
+    return "\n".join(
+        f"{n:>{wide[0]}}  {name:<{wide[1]}}  {title:<{wide[2]}}  {quick:>{wide[3]}}  {full:>{wide[4]}}"
+        for n, name, title, quick, full in rows
+    )
 
 
 def _plan(lecture: Lecture, waiting: Sequence[str]) -> str:
