@@ -3,7 +3,8 @@
 use antumbra_math::{DVec2, DVec3, Rgb, World, closed, real, warp};
 use antumbra_trace::{NO_PRIM, PrimId, Shape};
 
-use super::flat::{Front, far_irradiance, lies_on, lit};
+use super::far::Far;
+use super::flat::{Front, lies_on};
 use super::square::Square;
 use super::{LightBounds, LightHit, LightKind, LightPoints, LightSample, LightSurface, OutlinePoint};
 use crate::receiver::Receiver;
@@ -146,15 +147,16 @@ impl LightKind for Disk {
         front.irradiance(closed::polygon(&corners, n))
     }
 
-    /// From its middle where it is far.
     #[inline]
-    fn weight(&self, at: &Receiver) -> f32 {
+    fn far(&self) -> Option<Far> {
         let reach2 = self.radius * self.radius;
-        let area = self.normal.normalize() * (real::PI * reach2);
-        match far_irradiance(self.center - at.p, area, reach2, at.ng) {
-            Some(signed) => lit(signed, self.both_sides) * self.radiance.luminance(),
-            None => self.irradiance(at),
-        }
+        Some(Far {
+            middle: self.center,
+            area: self.normal.normalize() * (real::PI * reach2),
+            reach2,
+            both_sides: self.both_sides,
+            luminance: self.radiance.luminance(),
+        })
     }
 
     fn power(&self, _scene_radius: f32) -> f32 {

@@ -128,22 +128,6 @@ impl Front {
     }
 }
 
-/// The irradiance of a small flat light as if it sat in its middle: A cos θ cos θ′ / r², signed by the side, with `to` the
-/// way to its middle, `area` the front normal times A, `reach2` the squared distance of its farthest corner from the
-/// middle. `None` if it looks larger than two thirds of a radian across, if the horizon may cut it, or if f32 cannot tell
-/// its sides apart.
-#[inline]
-pub(super) fn far_irradiance(to: World, area: World, reach2: f32, n: World) -> Option<f32> {
-    let distance2 = to.length_squared();
-    let height = to.dot(n);
-    let facing = -to.dot(area);
-    let edge_on = facing * facing <= 1e-10 * distance2 * area.length_squared();
-    if distance2 < 9.0 * reach2 || height * height <= reach2 || edge_on {
-        return None;
-    }
-    Some(if height > 0.0 { facing / distance2 * (height / distance2) } else { 0.0 })
-}
-
 /// What is left of a signed irradiance if only the front shines, or both sides.
 #[inline]
 pub(super) fn lit(signed: f32, both_sides: bool) -> f32 {

@@ -6,6 +6,7 @@
 mod directional;
 mod disk;
 mod environment;
+mod far;
 mod flat;
 mod lat_long;
 mod point;
@@ -22,6 +23,7 @@ mod triangle;
 pub use directional::Directional;
 pub use disk::Disk;
 pub use environment::Environment;
+pub use far::Far;
 pub use point::Point;
 pub use rectangle::Rectangle;
 pub use sphere::Sphere;
@@ -153,7 +155,11 @@ pub trait LightKind {
     /// A cheap stand-in for [`irradiance`](LightKind::irradiance), within a fifth of it where that takes long;
     /// above 0 wherever it is.
     fn weight(&self, at: &Receiver) -> f32 {
-        self.irradiance(at)
+        self.far().and_then(|far| far.weight(at)).unwrap_or_else(|| self.irradiance(at))
+    }
+    /// How it looks from far away, if it is flat.
+    fn far(&self) -> Option<Far> {
+        None
     }
     /// Emitted power, luminance [W]; for lights at infinity through a disk of `scene_radius`.
     fn power(&self, scene_radius: f32) -> f32;
@@ -204,6 +210,7 @@ macro_rules! kinds {
                 emitted(wi: World, front: bool) (wi, front) -> Rgb;
                 irradiance(at: &Receiver) (at) -> f32;
                 weight(at: &Receiver) (at) -> f32;
+                far() () -> Option<Far>;
                 power(scene_radius: f32) (scene_radius) -> f32;
                 bounds() () -> LightBounds;
                 outline(at: &Receiver, u: f32) (at, u) -> Option<OutlinePoint>;

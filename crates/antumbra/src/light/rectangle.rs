@@ -4,7 +4,8 @@ use antumbra_math::spherical::{SphericalRectangle, SphericalTriangle};
 use antumbra_math::{DVec2, DVec3, Rgb, World, closed};
 use antumbra_trace::{NO_PRIM, PrimId};
 
-use super::flat::{Front, along_edges, far_irradiance, largest, lies_on, lit};
+use super::far::Far;
+use super::flat::{Front, along_edges, largest, lies_on};
 use super::square::Square;
 use super::{LightBounds, LightHit, LightKind, LightPoints, LightSample, LightSurface, OutlinePoint};
 use crate::receiver::Receiver;
@@ -232,16 +233,16 @@ impl LightKind for Rectangle {
         self.front().irradiance(closed::polygon(&corners, at.ng.as_dvec3()))
     }
 
-    /// From its middle where it is far.
     #[inline]
-    fn weight(&self, at: &Receiver) -> f32 {
+    fn far(&self) -> Option<Far> {
         let (u, v) = (self.u, self.v);
-        let reach2 = 0.25 * (u.length_squared() + v.length_squared() + 2.0 * u.dot(v).abs());
-        let to = self.corner + 0.5 * (u + v) - at.p;
-        match far_irradiance(to, u.cross(v), reach2, at.ng) {
-            Some(signed) => lit(signed, self.both_sides) * self.radiance.luminance(),
-            None => self.irradiance(at),
-        }
+        Some(Far {
+            middle: self.corner + 0.5 * (u + v),
+            area: u.cross(v),
+            reach2: 0.25 * (u.length_squared() + v.length_squared() + 2.0 * u.dot(v).abs()),
+            both_sides: self.both_sides,
+            luminance: self.radiance.luminance(),
+        })
     }
 
     fn power(&self, _scene_radius: f32) -> f32 {

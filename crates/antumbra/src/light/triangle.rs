@@ -4,7 +4,8 @@ use antumbra_math::spherical::SphericalTriangle;
 use antumbra_math::{DVec2, DVec3, Rgb, World, closed, warp};
 use antumbra_trace::{NO_PRIM, PrimId};
 
-use super::flat::{Front, along_edges, far_irradiance, largest, lies_on, lit};
+use super::far::Far;
+use super::flat::{Front, along_edges, largest, lies_on};
 use super::square::Square;
 use super::{LightBounds, LightHit, LightKind, LightPoints, LightSample, LightSurface, OutlinePoint};
 use crate::receiver::Receiver;
@@ -152,17 +153,17 @@ impl LightKind for Triangle {
         self.front().irradiance(closed::polygon(&corners, at.ng.as_dvec3()))
     }
 
-    /// From its middle where it is far.
     #[inline]
-    fn weight(&self, at: &Receiver) -> f32 {
+    fn far(&self) -> Option<Far> {
         let middle = (self.a + self.b + self.c) / 3.0;
         let reach = |x: World| (x - middle).length_squared();
-        let reach2 = reach(self.a).max(reach(self.b)).max(reach(self.c));
-        let area = 0.5 * (self.b - self.a).cross(self.c - self.a);
-        match far_irradiance(middle - at.p, area, reach2, at.ng) {
-            Some(signed) => lit(signed, self.both_sides) * self.radiance.luminance(),
-            None => self.irradiance(at),
-        }
+        Some(Far {
+            middle,
+            area: 0.5 * (self.b - self.a).cross(self.c - self.a),
+            reach2: reach(self.a).max(reach(self.b)).max(reach(self.c)),
+            both_sides: self.both_sides,
+            luminance: self.radiance.luminance(),
+        })
     }
 
     fn power(&self, _scene_radius: f32) -> f32 {

@@ -1,0 +1,117 @@
+//! Flat lights from far away: the middle of each stands for the whole, eight weighed at once.
+
+use antumbra_math::World;
+
+use crate::receiver::Receiver;
+
+/// Weighed together: what the compiler turns into SIMD lanes.
+const LANES: usize = 8;
+
+/// A small flat light as if it sat in its middle.
+#[derive(Clone, Copy, Debug)]
+pub struct Far {
+    /// Its middle.
+    pub middle: World,
+    /// The unit normal of its front times its area A.
+    pub area: World,
+    /// Squared distance of its farthest point from the middle.
+    pub reach2: f32,
+    /// The back shines too.
+    pub both_sides: bool,
+    /// Luminance of L_e.
+    pub luminance: f32,
+}
+
+impl Far {
+    /// L_e A cos θ cos θ′ / r² (luminance) at a receiver; `None` if the light looks larger than two thirds of a radian
+    /// across, if the horizon may cut it, or if f32 cannot tell its sides apart.
+    #[inline]
+    pub fn weight(&self, at: &Receiver) -> Option<f32> {
+        let mut lanes = Lanes::NOWHERE;
+        lanes.set(0, self);
+        let weight = lanes.weight(0, at.p, at.ng);
+        (!weight.is_nan()).then_some(weight)
+    }
+}
+
+/// The far looks of all lights of a scene, in their order.
+#[derive(Clone, Debug)]
+pub struct FarLights(Vec<Lanes>);
+
+impl FarLights {
+    /// Of lights without a far look `None`.
+    pub fn new(lights: impl ExactSizeIterator<Item = Option<Far>>) -> FarLights {
+        let mut all = vec![Lanes::NOWHERE; lights.len().div_ceil(LANES)];
+        for (i, far) in lights.enumerate() {
+            if let Some(far) = far {
+                all[i / LANES].set(i % LANES, &far);
+            }
+        }
+        FarLights(all)
+    }
+
+    /// [`Far::weight`] of each light; NaN where it says `None`.
+    #[inline]
+    pub fn weigh(&self, at: &Receiver, out: &mut [f32]) {
+        for (lanes, out) in self.0.iter().zip(out.chunks_mut(LANES)) {
+            let mut weights = [0.0; LANES];
+            for (k, weight) in weights.iter_mut().enumerate() {
+                *weight = lanes.weight(k, at.p, at.ng);
+            }
+            out.copy_from_slice(&weights[..out.len()]);
+        }
+    }
+}
+
+/// Eight lights, number by number.
+#[derive(Clone, Copy, Debug)]
+struct Lanes {
+    middle: [[f32; LANES]; 3],
+    area: [[f32; LANES]; 3],
+    reach2: [f32; LANES],
+    /// What the back sends, over what the front sends: 1 or 0.
+    back: [f32; LANES],
+    luminance: [f32; LANES],
+}
+
+impl Lanes {
+    /// Lights that are never far.
+    const NOWHERE: Lanes = Lanes {
+        middle: [[0.0; LANES]; 3],
+        area: [[0.0; LANES]; 3],
+        reach2: [f32::INFINITY; LANES],
+        back: [0.0; LANES],
+        luminance: [0.0; LANES],
+    };
+
+    #[inline]
+    fn set(&mut self, k: usize, far: &Far) {
+        for axis in 0..3 {
+            self.middle[axis][k] = far.middle[axis];
+            self.area[axis][k] = far.area[axis];
+        }
+        self.reach2[k] = far.reach2;
+        self.back[k] = if far.both_sides { 1.0 } else { 0.0 };
+        self.luminance[k] = far.luminance;
+    }
+
+    #[inline(always)]
+    fn weight(&self, k: usize, p: World, n: World) -> f32 {
+        let to = [self.middle[0][k] - p.x, self.middle[1][k] - p.y, self.middle[2][k] - p.z];
+        let area = [self.area[0][k], self.area[1][k], self.area[2][k]];
+        let distance2 = dot(to, to);
+        let height = dot(to, [n.x, n.y, n.z]);
+        let facing = -dot(to, area);
+        let edge_on = facing * facing <= 1e-10 * distance2 * dot(area, area);
+        let near = (distance2 < 9.0 * self.reach2[k]) | (height * height <= self.reach2[k]) | edge_on;
+        let signed = facing / distance2 * (height / distance2);
+        let lit = if signed > 0.0 { signed } else { -signed * self.back[k] };
+        let weight = if height > 0.0 { lit * self.luminance[k] } else { 0.0 };
+        if near { f32::NAN } else { weight }
+    }
+}
+
+#[inline(always)]
+fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
