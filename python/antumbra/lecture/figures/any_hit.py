@@ -36,7 +36,7 @@ def _stage(run: Run, measured: Mapping[str, Quantity]) -> list[Part]:
     for name, build in SCENES.items():
         saved = {word: measured[f"{name}_saved_{word}"] for word in ("blocked", "free")}
         panels.append(Panel(name, name, [maps_of_visits(run, run.scene(build), name, run.pick(SIZE), saved)]))
-    note = f"Means over {run.pick(TIMES)} random points of a light. Rates: these rays in one call on all cores, mean of seven calls, 95 %. Visits are counted by a traversal ray by ray, rates are those of the renderer’s own traversal."
+    note = f"Means over {run.pick(TIMES)} random points of a light. Visits: of a counting traversal. Rates: of the renderer's own, all cores, mean of seven calls, 95 %."
     return [Tabs("scene", "Scene", panels), table_of_visits(measured, list(SCENES), note)]
 
 
@@ -53,7 +53,7 @@ FIGURE = Figure(
     equation=Equation([SEGMENT], "Marked: any t will do. To say 0, one is enough; to say 1, there must be none in all boxes on the way."),
     claims=[
         Claim("Both give the same answer.", "differ", below=1e-5, main=True, measured="{differ} of the rays differ, in the worst of three scenes"),
-        Claim("A free ray gains nothing, as follows from how both are counted.", "free", near=0.0, within=1e-6, measured="{free} saved, in the best of three scenes"),
+        Claim("A free ray gains nothing, by construction.", "free", near=0.0, within=1e-6, measured="{free} saved, in the best of three scenes"),
         Claim("A blocked ray gains, where much lies behind its blocker.", "interior_saved_blocked", above=0.05,
               measured="{interior_saved_blocked} in the interior, {many-lights_saved_blocked} among the lamps, {scan_saved_blocked} in the stone"),
     ],

@@ -34,7 +34,7 @@ def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
         "s", "Edge s of the light, all squares at the same power", [frame(run, found, size, white) for size in SIZES], SIZES.index(0.7),
         ("From the side", "From below", "From outside"),
         note="Three boards hang over the receiver, their edges in line, from left to right with d₂/d₁ = 1/7, 1/3, 1. From the side, "
-        "the last one. The point light sends as much straight down as the others, and the same to all sides: it has no cos θ′, and four times their power.",
+        "the last one. The point light sends as much straight down, but has no cos θ′: four times the power of the others.",
     )  # fmt: skip
     curves = [
         curve_of(f"d₂/d₁ = {word}", FITTED, [found[f"w{s:g}-{n}"] for s in FITTED], partial(np.multiply, r), "line: s · d₂/d₁")

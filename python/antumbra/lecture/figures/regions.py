@@ -62,10 +62,10 @@ FIGURE = Figure(
     ),
     claims=[
         Claim("The umbra closes at 4.00.", "closes", near=DISKS.length, within=0.1, main=True,
-              measured="measured {closes} (spread about a line through {frames} frames)"),
+              measured="measured {closes} (spread, fit over {frames} frames)"),
         Claim("The penumbra is as wide as similar triangles say.", "wide", below="pixel",
               measured="largest difference {wide}, pixel {pixel}"),
-        Claim("On its axis the umbra ends at g = 4, and a ring is seen from there on.", "axis", near=DISKS.length, within=1e-3,
-              measured="{axis}: between the last point that sees nothing and the first that sees a ring"),
+        Claim("On its axis the umbra ends at g = 4.", "axis", near=DISKS.length, within=1e-3,
+              measured="{axis}, where a ring is first seen"),
     ],
 )  # fmt: skip
