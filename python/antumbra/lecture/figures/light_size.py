@@ -67,13 +67,12 @@ FIGURE = Figure(
     variants=[Variant(f"{kind}-{s}", builtin("pillars", light_size=s), options, count)
               for s in SIZES for kind, options, count in (("one", ONE, Pick(16, 48)), ("truth", TRUTH, 1))],
     measure=lambda run: noises(_squares(run), SIZES), stage=_stage, exr=["one-1.0"],
-    answer=Number("penumbra-doubled", "So many times as noisy is a penumbra pixel under 2 m as under 1 m, and {lit-doubled:1} times a fully lit one. The penumbra "
-        "grows wider. A fair coin for V gives 1/2; under 4 m the noise is {penumbra-4:1}, as cosines and r vary too.", before="× "),
+    answer=Number("penumbra-doubled", "So many times as noisy is a penumbra pixel under 2 m as under 1 m, and {lit-doubled:1} times a fully lit one. The penumbra grows wider.", before="× "),
     equation=Equation([SUM], "Marked: one shadow ray. In the penumbra V jumps between 0 and 1; in the light only the cosines and r "
-        "vary, and the less the smaller the light. At 4 m they vary so much that the penumbra gets noisier too."),
+        "vary, and the less the smaller the light. A fair coin for V gives 1/2; at 4 m cosines and r vary so much that the penumbra is noisier."),
     claims=[
         Claim("Fully lit: the noise grows with the edge of the light.", "lit", near=1.0, within=0.05, main=True, measured="slope {lit}, edges up to 1 m"),
         Claim("In the penumbra a light twice as large changes little.", "penumbra-doubled", near=1.0, within=0.2, measured="× {penumbra-doubled} from 1 to 2 m"),
-        Claim("There, under a light of 1 m, it is between 1/3 and 1/2: at most the noise of a fair coin.", "penumbra-1", near=5 / 12, within=1 / 12, measured="{penumbra-1} of the unshadowed light"),
+        Claim("There, under 1 m, it is 1/3 to 1/2: at most that of a fair coin.", "penumbra-1", near=5 / 12, within=1 / 12, measured="{penumbra-1} of the unshadowed light"),
     ],
 )  # fmt: skip
