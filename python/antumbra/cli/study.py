@@ -101,23 +101,16 @@ def _source(
     scene: str, definitions: tuple[str, ...], up_axis: str | None, files_from: str | None
 ) -> tuple[Source, dict[str, float]]:
     """The scene, and what -D says of it."""
+    from antumbra.study.plan import is_number
     from antumbra.study.sources import file, source
 
     given = dict(_scene.definition(text) for text in definitions)
     is_file = _scene.is_file(scene, up_axis, files_from)
-    texts = {name: text for name, text in given.items() if is_file and not _is_number(text)}
+    texts = {name: text for name, text in given.items() if is_file and not is_number(text)}
     parameters = {name: _scene.number(name, text) for name, text in given.items() if name not in texts}
     if is_file:
         return file(scene, up_axis, files_from, texts), parameters
     return source(scene), parameters
-
-
-def _is_number(text: str) -> bool:
-    try:
-        float(text)
-    except ValueError:
-        return False
-    return True
 
 
 def _varied(text: str) -> tuple[str, list[str]]:

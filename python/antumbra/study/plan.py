@@ -204,10 +204,11 @@ def _axis(varied: dict[str, list[str]]) -> str:
     rays = [name for name in several if name in RAYS]
     if rays:
         return rays[-1]
-    return next((name for name in several if all(map(_is_number, varied[name]))), "")
+    return next((name for name in several if all(map(is_number, varied[name]))), "")
 
 
-def _is_number(text: str) -> bool:
+def is_number(text: str) -> bool:
+    """Whether a value of a variant is a number: the others are words."""
     try:
         float(text)
     except ValueError:

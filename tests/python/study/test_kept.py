@@ -8,19 +8,12 @@ from __future__ import annotations
 import json
 
 import pytest
+from small_study import SMALL
 
 import antumbra as am
 from antumbra import _made_by
 from antumbra.study import StudyStopped, renders
 from antumbra.study.content import content
-
-SMALL = {
-    "vary": {"shadow_rays": [1, 2, 3]},
-    "estimator": "area",
-    "viewing_rays": 1,
-    "size": (8, 6),
-    "seeds": 3,
-}
 
 
 def test_kept_rows_have_the_places_of_the_new_plan(tmp_path):

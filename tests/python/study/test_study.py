@@ -12,6 +12,7 @@ from html.parser import HTMLParser
 
 import numpy as np
 import pytest
+from small_study import SMALL
 
 import antumbra as am
 from antumbra.study import StudyStopped, files, kinds, plan, renders
@@ -184,15 +185,6 @@ def test_a_picture_may_be_the_reference(tmp_path):
         assert row.mse.value == pytest.approx(same.mse.value, rel=0.02)
     with pytest.raises(am.OptionError, match=r"truth\.exr is 32 × 24, the pictures of this study 16 × 12"):
         study("pillars", reference=str(tmp_path / "truth.exr"), size=(16, 12), **options)
-
-
-SMALL = {
-    "vary": {"shadow_rays": [1, 2, 3]},
-    "estimator": "area",
-    "viewing_rays": 1,
-    "size": (8, 6),
-    "seeds": 3,
-}
 
 
 # Four pictures each of hemisphere and of surfaces, which are too noisy to be the reference of so small a study.
