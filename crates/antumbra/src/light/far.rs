@@ -2,6 +2,7 @@
 
 use antumbra_math::World;
 
+use super::Light;
 use crate::receiver::Receiver;
 
 /// Weighed together: what the compiler turns into SIMD lanes.
@@ -22,43 +23,36 @@ pub struct Far {
     pub luminance: f32,
 }
 
-impl Far {
-    /// L_e A cos θ cos θ′ / r² (luminance) at a receiver; `None` if the light looks larger than two thirds of a radian
-    /// across, if the horizon may cut it, or if f32 cannot tell its sides apart.
-    #[inline]
-    pub fn weight(&self, at: &Receiver) -> Option<f32> {
-        let mut lanes = Lanes::NOWHERE;
-        lanes.set(0, self);
-        let weight = lanes.weight(0, at.p, at.ng);
-        (!weight.is_nan()).then_some(weight)
-    }
-}
-
 /// The far looks of all lights of a scene, in their order.
 #[derive(Clone, Debug)]
 pub struct FarLights(Vec<Lanes>);
 
 impl FarLights {
-    /// Of lights without a far look `None`.
-    pub fn new(lights: impl ExactSizeIterator<Item = Option<Far>>) -> FarLights {
+    /// Of these lights.
+    pub fn new(lights: &[Light]) -> FarLights {
         let mut all = vec![Lanes::NOWHERE; lights.len().div_ceil(LANES)];
-        for (i, far) in lights.enumerate() {
-            if let Some(far) = far {
+        for (i, light) in lights.iter().enumerate() {
+            if let Some(far) = light.far() {
                 all[i / LANES].set(i % LANES, &far);
             }
         }
         FarLights(all)
     }
 
-    /// [`Far::weight`] of each light; NaN where it says `None`.
+    /// Of each of these lights L_e A cos θ cos θ′ / r² (luminance) at a receiver: within a fifth of its irradiance, above 0
+    /// wherever that is. The irradiance itself if the light is not flat, looks larger than two thirds of a radian across,
+    /// may be cut by the horizon, or lies so that f32 cannot tell its sides apart.
     #[inline]
-    pub fn weigh(&self, at: &Receiver, out: &mut [f32]) {
+    pub fn weigh(&self, lights: &[Light], at: &Receiver, out: &mut [f32]) {
         for (lanes, out) in self.0.iter().zip(out.chunks_mut(LANES)) {
             let mut weights = [0.0; LANES];
             for (k, weight) in weights.iter_mut().enumerate() {
                 *weight = lanes.weight(k, at.p, at.ng);
             }
             out.copy_from_slice(&weights[..out.len()]);
+        }
+        for (weight, light) in out.iter_mut().zip(lights).filter(|(weight, _)| weight.is_nan()) {
+            *weight = light.irradiance(at);
         }
     }
 }
@@ -95,6 +89,7 @@ impl Lanes {
         self.luminance[k] = far.luminance;
     }
 
+    /// NaN where the light is near.
     #[inline(always)]
     fn weight(&self, k: usize, p: World, n: World) -> f32 {
         let to = [self.middle[0][k] - p.x, self.middle[1][k] - p.y, self.middle[2][k] - p.z];

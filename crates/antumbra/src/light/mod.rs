@@ -23,7 +23,7 @@ mod triangle;
 pub use directional::Directional;
 pub use disk::Disk;
 pub use environment::Environment;
-pub use far::Far;
+pub use far::{Far, FarLights};
 pub use point::Point;
 pub use rectangle::Rectangle;
 pub use sphere::Sphere;
@@ -152,11 +152,6 @@ pub trait LightKind {
     /// Unoccluded irradiance at `at` on the side of its geometric normal, luminance [W/m²], exact or estimated; above 0
     /// wherever the light can contribute.
     fn irradiance(&self, at: &Receiver) -> f32;
-    /// A cheap stand-in for [`irradiance`](LightKind::irradiance), within a fifth of it where that takes long;
-    /// above 0 wherever it is.
-    fn weight(&self, at: &Receiver) -> f32 {
-        self.far().and_then(|far| far.weight(at)).unwrap_or_else(|| self.irradiance(at))
-    }
     /// How it looks from far away, if it is flat.
     fn far(&self) -> Option<Far> {
         None
@@ -209,7 +204,6 @@ macro_rules! kinds {
                 hit(from: World, wi: World) (from, wi) -> Option<LightHit>;
                 emitted(wi: World, front: bool) (wi, front) -> Rgb;
                 irradiance(at: &Receiver) (at) -> f32;
-                weight(at: &Receiver) (at) -> f32;
                 far() () -> Option<Far>;
                 power(scene_radius: f32) (scene_radius) -> f32;
                 bounds() () -> LightBounds;

@@ -1,6 +1,6 @@
 //! Sums over all draws: irradiance at a receiver, power through a sphere around the light.
 
-use antumbra::light::{Light, LightPoints};
+use antumbra::light::{FarLights, Light, LightPoints};
 use antumbra::math::{Rgb, World, real, warp};
 use antumbra::receiver::Receiver;
 
@@ -35,16 +35,20 @@ fn irradiance_is_what_the_samples_carry() {
     }
 }
 
-/// `weight` is above 0 where `irradiance` is, and within a fifth of it: of a light that looks two thirds of a radian
+/// The weight of `FarLights` is above 0 where `irradiance` is, and within a fifth of it: of a light that looks two thirds of a radian
 /// across, the middle stands for the whole, to about the square of a third.
 #[test]
 fn weights_stand_in_for_irradiances() {
     for (kind, light) in Light::examples() {
+        let one = [light.clone()];
+        let far = FarLights::new(&one);
         for i in 0..2000 {
             let [a, b] = numbers(i, 21);
             let p = warp::sphere(numbers(i, 22)).0 * (0.2 + 12.0 * a * b);
             let at = receiver(p.to_array(), warp::sphere(numbers(i, 23)).0.to_array());
-            let (weight, e) = (light.weight(&at), light.irradiance(&at));
+            let (mut weight, e) = ([0.0], light.irradiance(&at));
+            far.weigh(&one, &at, &mut weight);
+            let [weight] = weight;
             assert!(
                 (weight - e).abs() <= 0.2 * e && (weight > 0.0 || e <= 0.0),
                 "{kind} from {p}: {weight}, {e}"

@@ -1,8 +1,7 @@
 //! Lights in proportion to about the irradiance that each would give the receiver, were nothing in the way.
 
 use super::{Chooser, LightSamplerKind, Scratch};
-use crate::light::far::FarLights;
-use crate::light::{Light, steps};
+use crate::light::{FarLights, Light, steps};
 use crate::receiver::Receiver;
 
 /// p = E / ΣE at the receiver: the best choice short of visibility and reflection, at a price that grows with the
@@ -17,17 +16,14 @@ const MOST: usize = 1024;
 
 impl LightSamplerKind for Contribution {
     fn new(lights: &[Light], _scene_radius: f32) -> Option<Contribution> {
-        (lights.len() <= MOST).then(|| Contribution { far: FarLights::new(lights.iter().map(Light::far)) })
+        (lights.len() <= MOST).then(|| Contribution { far: FarLights::new(lights) })
     }
 
     fn prepare<'a>(&'a self, lights: &[Light], at: &Receiver, scratch: &'a mut Scratch) -> Chooser<'a> {
         // Weighed once: the sum needs every weight before the first share.
         let mut weights = [0.0; MOST];
         let weights = &mut weights[..lights.len().min(MOST)];
-        self.far.weigh(at, weights);
-        for (weight, light) in weights.iter_mut().zip(lights).filter(|(weight, _)| weight.is_nan()) {
-            *weight = light.irradiance(at);
-        }
+        self.far.weigh(lights, at, weights);
         steps::share_out(weights.iter().copied(), scratch);
         Chooser { ends: scratch }
     }
