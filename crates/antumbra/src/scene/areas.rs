@@ -3,7 +3,7 @@
 use antumbra_math::{Frame, Vec3, World, real};
 use antumbra_trace::{PrimId, Shape};
 
-use super::surface::Place;
+use super::place::Place;
 use super::{Body, Scene};
 use antumbra_math::Rgb;
 
