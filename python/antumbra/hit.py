@@ -88,9 +88,19 @@ class Hit:
         """Geometric unit normal on the ray's side, (N, 3) float64."""
         return self.receivers.normals
 
+    @cached_property
+    def shading_normal(self) -> NDArray[np.float64]:
+        """The unit normal n of cos θ = n · ω, (N, 3) float64: interpolated and bent as the material says."""
+        return self.receivers._core.shading_normals()
+
+    @cached_property
+    def wo(self) -> NDArray[np.float64]:
+        """ω_o: unit vectors back along the rays, (N, 3) float64."""
+        return self.receivers._core.toward_viewer()
+
     def __getstate__(self) -> dict[str, Any]:
         """The arrays."""
-        names = ("t", "primitive", "mesh", "uv", "position", "normal")
+        names = ("t", "primitive", "mesh", "uv", "position", "normal", "shading_normal", "wo")
         return {name: getattr(self, name) for name in names} | {"_receivers": None}
 
     def __len__(self) -> int:

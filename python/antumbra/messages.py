@@ -1,4 +1,4 @@
-"""What antumbra tells people of a scene or a picture."""
+"""What antumbra tells people of a scene, a picture or a render."""
 
 from __future__ import annotations
 
@@ -11,3 +11,11 @@ class Message(NamedTuple):
     level: str
     place: str
     text: str
+
+
+class Progress(NamedTuple):
+    """How far a render is: `passes_done` of `passes`, and the `done` share of all work, 0 to 1."""
+
+    passes_done: int
+    passes: int
+    done: float

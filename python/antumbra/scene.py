@@ -6,13 +6,14 @@ import re
 import time
 import warnings
 from collections.abc import Callable, Mapping
+from functools import partial
 from os import PathLike, fspath
 from typing import Any, NamedTuple, NoReturn, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from antumbra import _core, settings
+from antumbra import _core, own, settings
 from antumbra._arrays import indices, matching, per_row, places, rows, starts
 from antumbra._parts import lat_long, matrix, mesh_of, one_of
 from antumbra._values import Color, Vector, color, number, shown, text, vector
@@ -24,16 +25,8 @@ from antumbra.hit import Hit, Receivers
 from antumbra.image import Image
 from antumbra.lights import Environment, Light
 from antumbra.materials import Blend, Diffuse, Material
-from antumbra.messages import Message
+from antumbra.messages import Message, Progress
 from antumbra.shapes import Shape
-
-
-class Progress(NamedTuple):
-    """How far a render is: `passes_done` of `passes`, and the `done` share of all work, 0 to 1."""
-
-    passes_done: int
-    passes: int
-    done: float
 
 
 def load(
@@ -174,9 +167,16 @@ class Scene(Anatomy):
 
     # ---- pictures ----
 
-    def render(self, *, progress: Callable[[Progress], object] | None = None, **options: Any) -> Image:
+    def render(
+        self,
+        *,
+        estimator: str | own.Estimator | None = None,
+        progress: Callable[[Progress], object] | None = None,
+        **options: Any,
+    ) -> Image:
         """Renders a picture. The options are those of `antumbra render --help`, with `_` for `-`, angles in radians.
 
+        `estimator` is a word of that help, or a function of your own: see `antumbra.own`.
         `progress` is called about 20 times a second with a `Progress`; if it returns False, the render stops and the
         picture has the passes that were done. Other Python threads run meanwhile.
 
@@ -190,9 +190,12 @@ class Scene(Anatomy):
         """
         if progress is not None and not callable(progress):
             raise TypeError(f"progress is {shown(progress)}: something to call is needed")
+        if callable(estimator):
+            name = getattr(estimator, "__name__", type(estimator).__name__)
+            return own.render(self._core, name, partial(estimator, self), options, progress)
         began = time.perf_counter()
         watch = None if progress is None else lambda *state: progress(Progress(*state))
-        words, asked = settings.words(options), self._core.suggested()
+        words, asked = settings.words({**options, "estimator": estimator}), self._core.suggested()
         picture, interrupted = self._core.render(list({**asked, **words}.items()), watch)
         seconds = time.perf_counter() - began
         said = [Message("note", "", text) for text in idle(words, asked=asked)]
@@ -313,20 +316,47 @@ class Scene(Anatomy):
     # ---- the pieces of an estimator ----
 
     def sample_light(
-        self, points: ArrayLike | Hit | Receivers, normals: ArrayLike | None, u: ArrayLike, **options: Any
+        self,
+        points: ArrayLike | Hit | Receivers,
+        normals: ArrayLike | None = None,
+        u: ArrayLike | None = None,
+        **options: Any,
     ) -> LightSamples:
         """Draws one light and one point of it for each receiver, from three numbers `u` (N, 3) in [0, 1) each.
 
-        Gives `direction` ω_i (N, 3), `target` (N, 3), where the shadow ray ends, `distance` (N,), `radiance` L_e
-        (N, 3), `pdf` (N,): p(light) · p(ω_i) in solid angle at the receiver [1/sr], and `light` (N,), its number.
+        Gives `direction` ω_i (N, 3), `target` (N, 3), where the shadow ray ends, `distance` r (N,), `radiance` L_e
+        (N, 3), `pdf` (N,): p(light) · p(ω_i) in solid angle at the receiver [1/sr], `cos_light` |cos θ′| (N,) and
+        `light` (N,), its number. The density over the light's area is `pdf_area` = pdf · cos θ′ / r².
         Light that arrives = f · radiance · cos θ / pdf, if the segment to the target is free. Where no light can
         reach, radiance is 0 and pdf is 1; lights without size have p(light) as pdf and their irradiance as radiance.
         Options: `lights` (how one is chosen: "uniform", "power", "contribution") and `light_points`.
         """
+        if u is None:
+            raise TypeError("u is missing: three numbers in [0, 1) per point are needed, (N, 3)")
         start, facing, count = places(points, normals)
         cube = matching("u", u, "points", count)
         words = list(settings.words(options).items())
         return LightSamples(*self._core.sample_light(start, facing, cube, words))
+
+    def find_light(
+        self,
+        points: ArrayLike | Hit | Receivers,
+        normals: ArrayLike | None = None,
+        directions: ArrayLike | None = None,
+        **options: Any,
+    ) -> LightsFound:
+        """What a ray from each receiver along its direction (N, 3) finds of the lights.
+
+        Gives `radiance` L_e (N, 3) of what the ray meets first, 0 where that is no light, and `pdf` (N,) [1/sr]: how
+        densely `sample_light` with the same options draws that direction, 0 where it finds none. Lights without size
+        are never found.
+        """
+        if directions is None:
+            raise TypeError("directions are missing: one per point is needed, (N, 3)")
+        start, facing, count = places(points, normals)
+        toward = matching("directions", directions, "points", count)
+        words = list(settings.words(options).items())
+        return LightsFound(*self._core.find_light(start, facing, toward, words))
 
     def brdf(self, hit: Hit | Receivers, wo: ArrayLike, wi: ArrayLike) -> NDArray[np.float32]:
         """f_r(ω_o, ω_i) [1/sr] at each receiver, (N, 3) float32, without the cosine.
@@ -397,4 +427,17 @@ class LightSamples(NamedTuple):
     distance: NDArray[np.float32]
     radiance: NDArray[np.float32]
     pdf: NDArray[np.float32]
+    cos_light: NDArray[np.float32]
     light: NDArray[np.uint32]
+
+    @property
+    def pdf_area(self) -> NDArray[np.float32]:
+        """p(light) · p(x) over the light's area [1/m²]: the density in solid angle times dω/dA = cos θ′ / r²."""
+        return self.pdf * self.cos_light / self.distance**2
+
+
+class LightsFound(NamedTuple):
+    """What one direction per receiver finds, as `Scene.find_light` describes."""
+
+    radiance: NDArray[np.float32]
+    pdf: NDArray[np.float32]

@@ -8,6 +8,7 @@ mod info;
 mod kinds;
 mod meshes;
 mod picture;
+mod pieces;
 mod query;
 mod receivers;
 mod render;

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use antumbra::render::Picture as Rendered;
+use antumbra::render::{Picture as Rendered, hash_of};
 use antumbra::settings::{ExrNumbers, Settings, Tone};
 use antumbra_io::WriteError;
 use antumbra_io::picture::{self as file, Aov, Channels, Look, Precision};
@@ -16,8 +16,8 @@ use crate::errors;
 /// Layers whose numbers a half does not hold well.
 const FULL: [&str; 4] = ["position", "depth", "sample-count", "standard-error"];
 
-/// passes done, passes, shadow rays, other rays, hash, window.
-type Counts = (u32, u32, u64, u64, u32, [u32; 4]);
+/// passes done, passes, shadow rays, other rays, window.
+type Counts = (u32, u32, u64, u64, [u32; 4]);
 
 /// What `render` returned, or what was pickled of it.
 #[pyclass(frozen, module = "antumbra._core")]
@@ -193,23 +193,28 @@ impl Picture {
         Counts,
     )> {
         let r = &self.rendered;
-        let counts = (r.passes_done, r.passes, r.segments, r.rays, r.hash, r.window);
+        let counts = (r.passes_done, r.passes, r.segments, r.rays, r.window);
         Ok((self.pixels(py)?, self.standard_error(py)?, self.aovs(py)?, self.metadata(), counts))
     }
 
-    /// The picture that `parts` came from.
+    /// The picture that `parts` came from, or that was made elsewhere: its hash is that of its pixels.
     #[staticmethod]
     fn from_parts(
         pixels: PyReadonlyArray3<'_, f32>,
         standard_error: Option<PyReadonlyArray3<'_, f32>>,
         aovs: Vec<(String, PyReadonlyArrayDyn<'_, f32>)>,
-        metadata: Vec<(String, String)>,
+        mut metadata: Vec<(String, String)>,
         counts: Counts,
     ) -> PyResult<Picture> {
         let [height, width, _] = *pixels.as_array().shape() else {
             return Err(errors::value("pixels: (H, W, 3)"));
         };
-        let (passes_done, passes, segments, rays, hash, window) = counts;
+        let (passes_done, passes, segments, rays, window) = counts;
+        let pixels = triples(&pixels);
+        let hash = hash_of(&pixels);
+        for (_, value) in metadata.iter_mut().filter(|(name, _)| name == "antumbra.pixel-hash") {
+            *value = format!("{hash:08x}");
+        }
         let plane = |(name, array): (String, PyReadonlyArrayDyn<'_, f32>)| {
             let array = array.as_array();
             (name, array.shape().get(2).copied().unwrap_or(1), array.iter().copied().collect())
@@ -217,7 +222,7 @@ impl Picture {
         let rendered = Rendered {
             width: width as u32,
             height: height as u32,
-            pixels: triples(&pixels),
+            pixels,
             standard_error: standard_error.as_ref().map(triples),
             aovs: aovs.into_iter().map(plane).collect(),
             metadata,

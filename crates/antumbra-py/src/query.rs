@@ -5,8 +5,7 @@ use std::sync::Arc;
 
 use antumbra::light::LightId;
 use antumbra::math::Vec3;
-use antumbra::query::{self, Estimated, LightDraw, RayHit, Region};
-use antumbra::render;
+use antumbra::query::{self, Estimated, RayHit, Region};
 use antumbra::scene::{Scene, SceneError};
 use antumbra::schedule::Flow;
 use antumbra::sensor::Query;
@@ -23,10 +22,10 @@ use crate::scene::PyScene;
 use crate::watch::watched;
 use crate::{errors, settings};
 
-type Words = Vec<(String, String)>;
-type Table<'py> = Bound<'py, PyArray2<f32>>;
-type Doubles<'py> = Bound<'py, PyArray2<f64>>;
-type Column<'py> = Bound<'py, PyArray1<f32>>;
+pub(crate) type Words = Vec<(String, String)>;
+pub(crate) type Table<'py> = Bound<'py, PyArray2<f32>>;
+pub(crate) type Doubles<'py> = Bound<'py, PyArray2<f64>>;
+pub(crate) type Column<'py> = Bound<'py, PyArray1<f32>>;
 
 #[pymethods]
 impl PyScene {
@@ -132,38 +131,6 @@ impl PyScene {
         Ok(spread(&codes, &rows, n, Region::code(None)).into_pyarray(py))
     }
 
-    /// direction, target, distance, radiance, pdf, light: one drawn light point a receiver.
-    #[expect(clippy::type_complexity, reason = "a tuple of six arrays, named on the Python side")]
-    fn sample_light<'py>(
-        &self,
-        py: Python<'py>,
-        points: Origins<'_>,
-        normals: Option<Rows<'_>>,
-        u: Rows<'_>,
-        words: Words,
-    ) -> PyResult<(Table<'py>, Doubles<'py>, Column<'py>, Table<'py>, Column<'py>, Bound<'py, PyArray1<u32>>)>
-    {
-        let scene = self.scene(py)?;
-        let settings = settings::parse(&words)?;
-        let (queries, rows, n) = self.gather(py, &scene, &points, normals.as_ref())?;
-        let u = u.view();
-        let numbers: Result<Vec<[f32; 3]>, String> =
-            rows.iter().map(|i| unit(u.finite::<3>("u", *i)?, *i)).collect();
-        let numbers = numbers.map_err(errors::value)?;
-        let drawn =
-            watched(py, |look| query::sample_light(&scene, &queries, &numbers, &settings, &mut |_| look()))?;
-        let drawn = spread(&drawn, &rows, n, LightDraw::NONE);
-        let rows = |of: fn(&LightDraw) -> [f32; 3]| drawn.iter().map(of).collect::<Vec<_>>();
-        Ok((
-            table(py, &rows(|d| d.direction))?,
-            self.places(py, drawn.iter().map(|d| d.target))?,
-            drawn.iter().map(|d| d.distance).collect::<Array1<_>>().into_pyarray(py),
-            table(py, &rows(|d| d.radiance))?,
-            drawn.iter().map(|d| d.pdf).collect::<Array1<_>>().into_pyarray(py),
-            drawn.iter().map(|d| d.light).collect::<Array1<_>>().into_pyarray(py),
-        ))
-    }
-
     /// f_r at each receiver, (N, 3) float32.
     fn brdf<'py>(
         &self,
@@ -185,18 +152,6 @@ impl PyScene {
         let values = watched(py, |look| query::brdf(scene, rays, &directions, 0, &mut |_| look()))?;
         wrong.raise()?;
         table(py, &values)
-    }
-
-    /// Origins and unit directions of one viewing ray through each pixel's centre, (H·W, 3) float64 each.
-    fn camera_rays<'py>(&self, py: Python<'py>, words: Words) -> PyResult<(Doubles<'py>, Doubles<'py>)> {
-        let scene = self.scene(py)?;
-        let mut settings = settings::parse(&words)?;
-        self.relate(&mut settings);
-        let rays = render::camera_rays(&scene, &settings).map_err(|e| errors::scene(&e, self.file()))?;
-        let directions = rays.iter().flat_map(|(_, d)| d.to_array().map(f64::from)).collect();
-        let directions = Array2::from_shape_vec((rays.len(), 3), directions);
-        let directions = directions.map_err(|e| errors::value(e.to_string()))?;
-        Ok((self.places(py, rays.iter().map(|(o, _)| o.to_array()))?, directions.into_pyarray(py)))
     }
 }
 
@@ -222,7 +177,7 @@ impl PyScene {
     }
 
     /// The points that ask for light, each with its row; and how many rows there are.
-    fn gather(
+    pub(crate) fn gather(
         &self,
         py: Python<'_>,
         scene: &Arc<Scene>,
@@ -235,7 +190,11 @@ impl PyScene {
     }
 
     /// World places of rows that are relative to the scene's origin, (N, 3) float64.
-    fn places<'py>(&self, py: Python<'py>, rows: impl Iterator<Item = [f32; 3]>) -> PyResult<Doubles<'py>> {
+    pub(crate) fn places<'py>(
+        &self,
+        py: Python<'py>,
+        rows: impl Iterator<Item = [f32; 3]>,
+    ) -> PyResult<Doubles<'py>> {
         let origin = self.origin();
         let numbers: Vec<f64> = rows.flat_map(|p| [0, 1, 2].map(|k| f64::from(p[k]) + origin[k])).collect();
         let array = Array2::from_shape_vec((numbers.len() / 3, 3), numbers);
@@ -267,22 +226,12 @@ impl PyScene {
 }
 
 /// Values at their rows, `elsewhere` at all others.
-fn spread<T: Copy>(values: &[T], rows: &[usize], n: usize, elsewhere: T) -> Vec<T> {
+pub(crate) fn spread<T: Copy>(values: &[T], rows: &[usize], n: usize, elsewhere: T) -> Vec<T> {
     let mut out = vec![elsewhere; n];
     for (value, row) in values.iter().zip(rows) {
         out[*row] = *value;
     }
     out
-}
-
-fn unit(u: [f64; 3], i: usize) -> Result<[f32; 3], String> {
-    // The largest single below 1: a double just under 1 must not round up to it.
-    const BELOW_ONE: f32 = 1.0 - f32::EPSILON / 2.0;
-    if u.iter().all(|x| (0.0..1.0).contains(x)) {
-        Ok(u.map(|x| (x as f32).min(BELOW_ONE)))
-    } else {
-        Err(format!("u[{i}] is {u:?}: numbers from 0 up to, not including, 1 are needed"))
-    }
 }
 
 /// The light of this name or number, among those that shine.
@@ -297,7 +246,7 @@ fn light_number(scene: &Scene, light: &str) -> PyResult<LightId> {
     })
 }
 
-fn table<'py>(py: Python<'py>, values: &[[f32; 3]]) -> PyResult<Table<'py>> {
+pub(crate) fn table<'py>(py: Python<'py>, values: &[[f32; 3]]) -> PyResult<Table<'py>> {
     let array = Array2::from_shape_vec((values.len(), 3), values.as_flattened().to_vec());
     Ok(array.map_err(|e| errors::value(e.to_string()))?.into_pyarray(py))
 }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use antumbra::math::Vec3;
+use antumbra::math::{Rgb, Vec3};
 use antumbra::query::RayHit;
 use antumbra::scene::{Met, Scene};
 use antumbra::schedule;
@@ -107,6 +107,21 @@ impl Receivers {
         self.table(py, |i| self.met(i).map(|met| doubles(met.receiver.ng)))
     }
 
+    /// Unit normals that shading uses, (N, 3) float64; NaN where the ray missed.
+    fn shading_normals<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        self.table(py, |i| self.met(i).map(|met| doubles(met.receiver.frame.n)))
+    }
+
+    /// ω_o, unit vectors back along the rays, (N, 3) float64; NaN where the ray missed.
+    fn toward_viewer<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let back = |ray: &RayHit| {
+            let d = ray.d.map(f64::from);
+            let length = d.iter().map(|c| c * c).sum::<f64>().sqrt();
+            d.map(|c| -c / length)
+        };
+        self.table(py, |i| (self.rays[i].prim != NO_PRIM).then(|| back(&self.rays[i])))
+    }
+
     fn __len__(&self) -> usize {
         self.len()
     }
@@ -164,6 +179,20 @@ impl Hits {
         let shape = (self.receivers.len(), 2);
         let array = Array2::from_shape_vec(shape, values).map_err(|e| errors::value(e.to_string()))?;
         Ok(array.into_pyarray(py))
+    }
+
+    /// Light that each ray sees of the lights themselves: L_e of what it met, else of all light at infinity; and the
+    /// colour of surfaces that show it as it is. (N, 3) float64.
+    fn emitted<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let Receivers { scene, rays, .. } = &self.receivers;
+        let light = |i: usize| match rays[i].met(scene) {
+            Some(met) => met.emitted.map_or(Rgb::BLACK, |(_, radiance)| radiance) + met.shown,
+            None => {
+                let d = Vec3::from(rays[i].d).normalize_or_zero();
+                scene.from_infinity(d).fold(Rgb::BLACK, |sum, (_, radiance)| sum + radiance)
+            }
+        };
+        self.receivers.table(py, |i| Some(light(i).0.map(f64::from)))
     }
 
     /// The same points for further queries.

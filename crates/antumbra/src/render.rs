@@ -2,9 +2,10 @@
 
 mod explain;
 mod maps;
+mod pass;
 mod view;
 
-use antumbra_math::{Rgb, Vec3};
+use antumbra_math::Rgb;
 
 use crate::estimator::EstimatorKind;
 use crate::film::{Film, Planes};
@@ -17,6 +18,7 @@ use crate::settings::{Masks, Settings};
 use view::{camera, view};
 
 pub use explain::{Explained, LightRay, SurfaceMet, ViewingRay, explain};
+pub use pass::Pass;
 
 /// A finished picture (or the part of it that was reached).
 #[derive(Clone, Debug)]
@@ -141,17 +143,6 @@ pub fn picture_size(scene: &Scene, settings: &Settings) -> Result<[u32; 2], Scen
     Ok([width, height])
 }
 
-/// Origin and unit direction of the viewing ray through the centre of each pixel, row after row from the top.
-pub fn camera_rays(scene: &Scene, settings: &Settings) -> Result<Vec<(Vec3, Vec3)>, SceneError> {
-    let camera = camera(scene, settings, &mut Vec::new())?;
-    let view = view(&camera, settings)?;
-    let sensor = CameraSensor::new(&camera, view);
-    let [left, top, width, height] = view.crop;
-    let centre = |from: u32, i: u32| f64::from(from + i) + 0.5;
-    let rows = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
-    Ok(rows.map(|(x, y)| sensor.ray(centre(left, x), centre(top, y))).collect())
-}
-
 /// Estimators of direct light end after one bounce.
 fn bounces(s: &Settings) -> u32 {
     match s.estimator {
@@ -229,8 +220,8 @@ fn assemble(
     pixels
 }
 
-/// FNV-1a over the bits, folded to 32.
-fn hash_of(pixels: &[[f32; 3]]) -> u32 {
+/// The hash of a picture: FNV-1a over the bits, folded to 32.
+pub fn hash_of(pixels: &[[f32; 3]]) -> u32 {
     let h = antumbra_math::hash::fnv1a_words(pixels.iter().flatten().map(|c| c.to_bits()));
     (h ^ (h >> 32)) as u32
 }

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Self
 if TYPE_CHECKING:
     import rich.progress
 
-    from antumbra.scene import Progress
+    from antumbra.messages import Progress
 
 # Work that is over sooner shows no bar.
 _PATIENCE = 1.0

@@ -136,7 +136,7 @@ def _budget(text: str | None) -> dict[str, list[float]] | None:
 
 
 def _shown(bar: Bar) -> Any:
-    from antumbra.scene import Progress
+    from antumbra.messages import Progress
 
     show = bar.show
     return None if show is None else lambda step: show(Progress(0, 0, step.done))

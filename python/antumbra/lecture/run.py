@@ -18,7 +18,8 @@ from antumbra.lecture.variant import Pick, Variant, edition
 
 if TYPE_CHECKING:
     from antumbra.image import Image
-    from antumbra.scene import Progress, Scene
+    from antumbra.messages import Progress
+    from antumbra.scene import Scene
 
 Report = Callable[[float, str], object]
 

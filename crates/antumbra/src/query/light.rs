@@ -1,13 +1,9 @@
 //! How much light arrives at points, how open they are, what part of a light they see.
 
-use antumbra_math::Vec3;
-
-use crate::estimator::{Estimator, EstimatorKind, LightChoice, Options, VisibleFraction};
+use crate::estimator::{Estimator, EstimatorKind, Options, VisibleFraction};
 use crate::film::Planes;
 use crate::illuminate::{Job, LightPlanes};
-use crate::light::sampler::{Choose, LightSampler, Pick, Scratch};
-use crate::light::{End, LightId};
-use crate::receiver::Receiver;
+use crate::light::LightId;
 use crate::scene::Scene;
 use crate::schedule::{self, Flow, Progress};
 use crate::sensor::{PointSensor, Query, Seen};
@@ -116,79 +112,4 @@ impl Estimated {
         all.flatten().for_each(|v| *v *= unit);
         self
     }
-}
-
-/// One light point for a receiver: what a student's own estimator of the area form needs.
-#[derive(Clone, Copy, Debug)]
-pub struct LightDraw {
-    /// ω_i, a unit vector; 0 where there is no light point.
-    pub direction: [f32; 3],
-    /// Where the shadow ray ends, or a point far along ω_i for lights at infinity.
-    pub target: [f32; 3],
-    /// Distance to the light point; +∞ at infinity.
-    pub distance: f32,
-    /// L_e; for lights without size the irradiance at normal incidence.
-    pub radiance: [f32; 3],
-    /// p(light) · p(ω_i) [1/sr]; lights without size: p(light).
-    pub pdf: f32,
-    /// Which light.
-    pub light: LightId,
-}
-
-impl LightDraw {
-    /// No light can reach.
-    pub const NONE: LightDraw = LightDraw {
-        direction: [0.0; 3],
-        target: [0.0; 3],
-        distance: 0.0,
-        radiance: [0.0; 3],
-        pdf: 1.0,
-        light: 0,
-    };
-}
-
-/// Draws a light point for every query, from three numbers each (which light, where on it).
-pub fn sample_light(
-    scene: &Scene,
-    queries: &[Query],
-    u: &[[f32; 3]],
-    settings: &Settings,
-    watch: &mut dyn FnMut(u64) -> Flow,
-) -> Vec<LightDraw> {
-    const CHUNK: usize = 1024;
-    let choose = match settings.lights {
-        LightChoice::Power => Choose::Power,
-        LightChoice::Contribution => Choose::Contribution,
-        _ => Choose::Uniform,
-    };
-    let sampler = LightSampler::new(choose, scene.lights(), scene.radius());
-    let mut out = vec![LightDraw::NONE; queries.len()];
-    let answer = |from: usize, out: &mut [LightDraw], scratch: &mut Scratch| {
-        for (i, out) in out.iter_mut().enumerate() {
-            let (at, u) = (queries[from + i].receiver(1.0), u[from + i]);
-            let pick = sampler.prepare(scene.lights(), &at, scratch).pick(u[0]);
-            if let Some(drawn) = pick.and_then(|pick| draw(scene, &at, pick, [u[1], u[2]], settings)) {
-                *out = drawn;
-            }
-        }
-    };
-    schedule::chunks(&mut out, CHUNK, settings.threads, answer, watch);
-    out
-}
-
-/// A point of the light that was picked.
-fn draw(scene: &Scene, at: &Receiver, pick: Pick, u: [f32; 2], settings: &Settings) -> Option<LightDraw> {
-    let s = scene.lights()[pick.light as usize].sample(at, u, settings.light_points)?;
-    let target = match s.end {
-        End::Point(q) => q,
-        End::Infinity => Vec3::from(at.start) + s.wi * (4.0 * scene.radius() + 4.0 * at.p.length()),
-    };
-    Some(LightDraw {
-        direction: s.wi.to_array(),
-        target: target.to_array(),
-        distance: s.distance,
-        radiance: s.radiance.0,
-        pdf: pick.prob * s.density.weight(),
-        light: pick.light,
-    })
 }

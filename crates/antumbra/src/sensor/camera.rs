@@ -6,7 +6,7 @@ use antumbra_trace::NO_PRIM;
 use super::{Looking, Scratch, Seen, Sensor, Tile, grid};
 use crate::film::{Film, Planes};
 use crate::receiver::Receiver;
-use crate::sampler::{Use, stream};
+use crate::sampler::{AnySampler, Use, stream};
 use crate::scene::{Camera, Lens, Projection, Ray};
 
 /// Sides of a tile: enough rays for a batch, small enough to keep all cores busy.
@@ -116,6 +116,24 @@ impl CameraSensor {
         }
     }
 
+    /// The viewing ray of sample `index` of `of` through a pixel of the whole picture: its origin and unit direction.
+    pub fn sample(
+        &self,
+        pixel: [u32; 2],
+        u: &AnySampler,
+        (stream, index, of): (u32, u32, u32),
+    ) -> (Vec3, Vec3) {
+        let offset = self.offset(u.pair(stream, index, of, Use::Pixel.at(0)));
+        let on_lens = self.on_lens(|| u.pair(stream, index, of, Use::Lens.at(0)));
+        let [x, y] = [0, 1].map(|k| f64::from(pixel[k]) + 0.5 + offset[k]);
+        self.ray_through(x, y, on_lens)
+    }
+
+    /// The stream of a pixel. Numbers belong to the pixel of the whole picture: a crop shows the same noise.
+    pub fn stream(&self, [x, y]: [u32; 2], seed: u32, replicate: u32) -> u32 {
+        stream(seed, y * self.view.size[0] + x, replicate)
+    }
+
     /// A point of the lens for two numbers in [0, 1), which are asked for only where there is one.
     fn on_lens(&self, u: impl FnOnce() -> [f32; 2]) -> DVec2 {
         match (self.lens, self.view.viewing) {
@@ -147,18 +165,13 @@ impl Sensor for CameraSensor {
         let pixel_of = |cell: u32| {
             [self.view.crop[0] + tile.x + cell % tile.width, self.view.crop[1] + tile.y + cell / tile.width]
         };
-        // Numbers belong to the pixel of the whole picture: a crop shows the same noise.
-        let stream_of = |[x, y]: [u32; 2]| stream(looking.seed, y * self.view.size[0] + x, replicate);
         scratch.rays.clear();
         scratch.streams.clear();
         for cell in 0..tile.cells() {
             let pixel = pixel_of(cell);
-            let stream = stream_of(pixel);
+            let stream = self.stream(pixel, looking.seed, replicate);
             scratch.streams.push(stream);
-            let offset = self.offset(looking.sampler.pair(stream, index, of, Use::Pixel.at(0)));
-            let on_lens = self.on_lens(|| looking.sampler.pair(stream, index, of, Use::Lens.at(0)));
-            let [x, y] = [0, 1].map(|k| f64::from(pixel[k]) + 0.5 + offset[k]);
-            let (o, d) = self.ray_through(x, y, on_lens);
+            let (o, d) = self.sample(pixel, looking.sampler, (stream, index, of));
             let number = stream ^ index.wrapping_mul(0x9e37_79b9);
             scratch.rays.push_ray(o.to_array(), d.to_array(), f32::INFINITY, NO_PRIM, number);
         }

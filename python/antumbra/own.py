@@ -1,0 +1,203 @@
+"""Estimators of your own: a function of arrays, rendered as a built-in one is.
+
+The area form of the rendering equation, L = ∫ f_r L_e V cos θ dω with ω drawn toward a light point, in six lines:
+
+>>> import antumbra as am
+>>> import numpy as np
+>>> def area(scene, at, u):
+...     s = scene.sample_light(at, u=u(3))
+...     f = scene.brdf(at, at.wo, s.direction)
+...     cos = np.maximum((at.shading_normal * s.direction).sum(axis=1), 0)
+...     free = ~scene.occluded(at, s.target)
+...     return f * s.radiance * (cos * free / s.pdf)[:, None]
+>>> image = am.builtin("pillars").render(estimator=area, viewing_rays=4, size=(32, 24))
+>>> image.pixels.shape
+(24, 32, 3)
+
+The function is asked once a pass, for all viewing rays that meet a surface together: `scene`; `at`, their `Hit` (N
+rows: position, normal, shading_normal, wo; it goes into every query); `u`, its random numbers. It returns the light
+that each surface reflects to the viewer, (N, 3) or (N,). What a viewing ray sees of the lights themselves is added.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from antumbra import _core, settings
+from antumbra.errors import OptionError, RenderStopped
+from antumbra.hit import Hit
+from antumbra.image import Image
+from antumbra.messages import Progress
+
+# Viewing rays that the function is asked for at once.
+RUN = 1 << 18
+
+
+class Numbers:
+    """Random numbers of one pass: `u(n)` gives (N, n) float32 in [0, 1), other ones at each call.
+
+    They are those of the sampler that the render was asked for, so a pixel's samples are stratified as a built-in
+    estimator's are. `u(3)` is one number, then a pair that is even over the square: which light, where on it.
+    """
+
+    def __init__(self, pair: Callable[[int, bool], NDArray[np.float32]]) -> None:
+        """`pair(nth, paired)` gives (N, 2): the nth pair, or the nth of the numbers that stand alone."""
+        self._pair, self._pairs, self._singles = pair, 0, 0
+
+    def __call__(self, n: int) -> NDArray[np.float32]:
+        """The next `n` numbers of every receiver."""
+        return np.concatenate([*self._columns(n)], axis=1)
+
+    def _columns(self, n: int) -> Iterator[NDArray[np.float32]]:
+        if n < 1:
+            raise ValueError(f"u({n}): at least one number is needed")
+        if n % 2:
+            yield self._pair(self._singles, False)[:, :1]
+            self._singles += 1
+        for _ in range(n // 2):
+            yield self._pair(self._pairs, True)
+            self._pairs += 1
+
+
+Estimator = Callable[[Any, Hit, Numbers], ArrayLike]
+Watch = Callable[[Progress], object]
+
+# Settings that a render heeds whatever estimator it has; the others are what the function itself decides.
+_HEEDED = {
+    "viewing_rays",
+    "sampler",
+    "rotate",
+    "pairing",
+    "viewing",
+    "filter",
+    "seed",
+    "exposure",
+    "tone",
+    "exr",
+}
+
+
+def render(
+    core: _core.Scene,
+    name: str,
+    reflected: Callable[[Hit, Numbers], ArrayLike],
+    options: dict[str, Any],
+    progress: Watch | None,
+) -> Image:
+    """A picture by the function `reflected` called `name`; `Scene.render(estimator=function)` comes here.
+
+    Raises OptionError for settings that only built-in estimators heed, ValueError for what is no (N, 3) of finite
+    numbers.
+    """
+    table = settings.table()
+    for option in options:
+        if option in table and table[option].group != "Camera" and option not in _HEEDED:
+            raise OptionError(f"{option} belongs to the built-in estimators: {name} decides it itself")
+    began = time.perf_counter()
+    suggested = {key: word for key, word in core.suggested().items() if key in _HEEDED | {"size"}}
+    words = {**suggested, **settings.words(options)}
+    sums = _Sums(core, words, name)
+    try:
+        for number in range(sums.passes):
+            sums.add(number, _one_pass(core, name, reflected, [*words.items()], number))
+            told = Progress(number + 1, sums.passes, (number + 1) / sums.passes)
+            if progress is not None and progress(told) is False:
+                break
+    except KeyboardInterrupt:
+        raise RenderStopped(sums.image(core.name, began) if sums.done else None) from None
+    return sums.image(core.name, began)
+
+
+def _one_pass(
+    core: _core.Scene,
+    name: str,
+    reflected: Callable[[Hit, Numbers], ArrayLike],
+    words: list[tuple[str, str]],
+    number: int,
+) -> NDArray[np.float64]:
+    """What viewing rays see of the lights in one pass, and what the surfaces reflect, (H·W, 3)."""
+    origins, directions = core.camera_rays(words, number)
+    light = np.zeros((len(origins), 3))
+    for start in range(0, len(origins), RUN):
+        run = slice(start, start + RUN)
+        o, d = origins[run], directions[run]
+        met = core.closest_hit(o, d, np.broadcast_to(np.inf, len(o)))
+        light[run] = met.emitted()
+        (rows,) = np.isfinite(met.t()).nonzero()
+        if len(rows):
+            at = Hit(core.closest_hit(o[rows], d[rows], np.broadcast_to(np.inf, len(rows))))
+
+            def pair(nth: int, paired: bool, rows: NDArray[np.intp] = rows + start) -> NDArray[np.float32]:
+                return core.pass_numbers(words, number, nth, paired)[rows]
+
+            light[rows + start] += checked(name, reflected(at, Numbers(pair)), len(rows))
+    return light
+
+
+def checked(name: str, answer: ArrayLike, count: int) -> NDArray[np.float64]:
+    """What a function of one's own returned, as (N, 3); ValueError says what is wrong with it."""
+    values = np.asarray(answer)
+    if values.dtype.kind not in "fiub":
+        raise ValueError(f"{name} returned {values.dtype}: numbers are needed")
+    if values.shape == (count,):
+        values = np.repeat(values[:, None], 3, axis=1)
+    if values.shape != (count, 3):
+        raise ValueError(f"{name} returned shape {values.shape}: ({count}, 3) or ({count},) is needed")
+    wrong = ~np.isfinite(values).all(axis=1)
+    if wrong.any():
+        row = int(wrong.argmax())
+        raise ValueError(
+            f"{name} returned {values[row]} for receiver {row} of {count} ({wrong.sum()} such rows): finite numbers "
+            "are needed"
+        )
+    return values.astype(np.float64)
+
+
+class _Sums:
+    """Passes summed by replicate, as the film of a built-in estimator sums them."""
+
+    def __init__(self, core: _core.Scene, words: dict[str, str], name: str) -> None:
+        # The shortest render of the same settings tells what a picture's metadata say of them.
+        told, _ = core.render([*words.items(), ("bounces", "0"), ("passes", "1")], None)
+        if told is None:
+            raise RenderStopped(None)
+        pixels, _, _, metadata, (_, self.passes, _, _, self.window) = told.parts()
+        self.shape, self.metadata = pixels.shape, dict(metadata)
+        self.metadata["antumbra.estimator"] = f"{name} (a function of Python)"
+        self.metadata.pop("antumbra.bounces", None)
+        fixed = (
+            self.metadata.get("antumbra.sampler") == "regular" and self.metadata["antumbra.rotate"] == "off"
+        )
+        self.replicates = 1 if fixed else min(self.passes, 4 if self.passes < 256 else 16)
+        self.sums = np.zeros((self.replicates, self.shape[0] * self.shape[1], 3))
+        self.counts = np.zeros(self.replicates)
+        self.done = 0
+
+    def add(self, number: int, light: NDArray[np.float64]) -> None:
+        replicate = -(-(number + 1) * self.replicates // self.passes) - 1
+        self.sums[replicate] += light
+        self.counts[replicate] += 1
+        self.done += 1
+
+    def image(self, scene: str, began: float) -> Image:
+        mean = self.sums.sum(axis=0) / self.done
+        full = self.counts > 0
+        error = None
+        if full.sum() > 1:
+            each = self.sums[full] / self.counts[full, None, None]
+            error = (each.std(axis=0, ddof=1) / np.sqrt(full.sum())).reshape(self.shape).astype(np.float32)
+        told = {**self.metadata, "antumbra.passes": f"{self.done} of {self.passes}"}
+        rays = self.done * self.shape[0] * self.shape[1]
+        picture = _core.Picture.from_parts(
+            mean.reshape(self.shape).astype(np.float32),
+            error,
+            [],
+            [*told.items()],
+            (self.done, self.passes, 0, rays, self.window),
+        )
+        return Image(picture, name=scene, seconds=time.perf_counter() - began)
