@@ -21,6 +21,7 @@ from antumbra.messages import Message
 if TYPE_CHECKING:
     from antumbra import lights, materials, shapes, study
     from antumbra.anatomy import Region
+    from antumbra.checks import check
     from antumbra.estimate import Estimate
     from antumbra.explanation import Explanation
     from antumbra.hit import Hit
@@ -41,6 +42,7 @@ __all__ = [
     "__version__",
     "builtin",
     "builtins",
+    "check",
     "lights",
     "load",
     "load_image",
@@ -59,6 +61,7 @@ _HOME = {
     "Scene": "scene",
     "builtin": "scene",
     "builtins": "scene",
+    "check": "checks",
     "load": "scene",
     "load_image": "image",
 }

@@ -64,6 +64,10 @@ class Numbers:
             self._pairs += 1
 
 
+class AnswerError(ValueError):
+    """What a function of one's own returned is no light: another shape, or numbers that are not finite."""
+
+
 Estimator = Callable[[Any, Hit, Numbers], ArrayLike]
 Watch = Callable[[Progress], object]
 
@@ -91,8 +95,8 @@ def render(
 ) -> Image:
     """A picture by the function `reflected` called `name`; `Scene.render(estimator=function)` comes here.
 
-    Raises OptionError for settings that only built-in estimators heed, ValueError for what is no (N, 3) of finite
-    numbers.
+    Raises OptionError for settings that only built-in estimators heed, AnswerError (a ValueError) for what is
+    no (N, 3) or (N,) of finite numbers.
     """
     table = settings.table()
     for option in options:
@@ -140,18 +144,18 @@ def _one_pass(
 
 
 def checked(name: str, answer: ArrayLike, count: int) -> NDArray[np.float64]:
-    """What a function of one's own returned, as (N, 3); ValueError says what is wrong with it."""
+    """What a function of one's own returned, as (N, 3); AnswerError says what is wrong with it."""
     values = np.asarray(answer)
     if values.dtype.kind not in "fiub":
-        raise ValueError(f"{name} returned {values.dtype}: numbers are needed")
+        raise AnswerError(f"{name} returned {values.dtype}: numbers are needed")
     if values.shape == (count,):
         values = np.repeat(values[:, None], 3, axis=1)
     if values.shape != (count, 3):
-        raise ValueError(f"{name} returned shape {values.shape}: ({count}, 3) or ({count},) is needed")
+        raise AnswerError(f"{name} returned shape {values.shape}: ({count}, 3) or ({count},) is needed")
     wrong = ~np.isfinite(values).all(axis=1)
     if wrong.any():
         row = int(wrong.argmax())
-        raise ValueError(
+        raise AnswerError(
             f"{name} returned {values[row]} for receiver {row} of {count} ({wrong.sum()} such rows): finite numbers "
             "are needed"
         )

@@ -39,10 +39,12 @@ def blocks(*languages):
 
 @pytest.fixture
 def room(data, tmp_path, monkeypatch):
-    """A folder with the files that the pages speak of: room.glb, ours.exr and reference.exr."""
+    """A folder with the files that the pages speak of: room.glb, mine.py, ours.exr and reference.exr."""
     shutil.copy(data / "scenes" / "gltf" / "BoxInterleaved.glb", tmp_path / "room.glb")
     for name, value in (("ours.exr", 0.5), ("reference.exr", 0.6)):
         _core.write_picture(str(tmp_path / name), np.full((8, 8, 3), value, np.float32))
+    (own,) = [code for page, code in blocks("python") if page == "own.md"]
+    (tmp_path / "mine.py").write_text(own.split("\n\n\nimage =")[0], encoding="utf-8")
     monkeypatch.chdir(tmp_path)
 
 

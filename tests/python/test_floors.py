@@ -9,7 +9,7 @@ import antumbra
 
 ROOT = Path(antumbra.__file__).parent
 # From the lowest floor up; everything that lies in no folder is the API.
-FLOORS = ("api", "study", "lecture", "cli")
+FLOORS = ("api", "checks", "study", "lecture", "cli")
 
 
 def modules() -> dict[str, Path]:

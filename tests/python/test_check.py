@@ -1,0 +1,110 @@
+"""The check of estimators: right ones pass, each planted fault is caught and named."""
+
+from __future__ import annotations
+
+import json
+import os
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import antumbra as am
+from antumbra.checks import run as asked
+from antumbra.checks.cases import LAMPS
+from antumbra.checks.lamps import falls_as, irradiance
+from own_estimators import RIGHT, WRONG, even_openness, openness
+
+STRESS = os.environ.get("ANTUMBRA_STRESS") == "1"
+
+
+@pytest.fixture
+def coarse(monkeypatch):
+    """A quarter of the samples, and no pictures: what a planted fault needs to be caught."""
+    if not STRESS:
+        monkeypatch.setattr(asked, "RUNS", 1)
+        kinds = {name: kind._replace(scenes=()) for name, kind in asked.KINDS.items()}
+        monkeypatch.setattr(asked, "KINDS", kinds)
+
+
+@pytest.mark.parametrize("estimator", RIGHT, ids=lambda e: e.__name__)
+def test_right_ones_pass(estimator):
+    report = am.check(estimator)
+    assert report.passed, str(report)
+    assert len(report.rows) == 14
+
+
+def test_openness_passes_and_its_even_twin_does_not(coarse):
+    assert am.check(openness, kind="occlusion").passed
+    report = am.check(even_openness, kind="occlusion")
+    assert report.faults == [
+        "directions drawn evenly are divided by the density cos θ/π of cosine-weighted ones"
+    ]
+
+
+@pytest.mark.parametrize("fault", WRONG)
+@pytest.mark.parametrize("seed", range(100 if STRESS else 1))
+def test_each_planted_fault_is_caught_and_named(coarse, fault, seed):
+    estimator, words = WRONG[fault]
+    report = am.check(estimator, seed=seed)
+    assert not report.passed
+    assert len(report.faults) == 1, report.faults
+    assert words in report.faults[0]
+
+
+@pytest.mark.parametrize("estimator", RIGHT, ids=lambda e: e.__name__)
+def test_false_alarms_are_rare(estimator, coarse):
+    checks = 1000 if STRESS else 5
+    failed = sum(not am.check(estimator, seed=seed).passed for seed in range(checks))
+    # Stated: below 10⁻³ a check; α = 2e-4 is used up. More than one of 1,000 then has probability 0.02.
+    assert failed <= (1 if STRESS else 0)
+
+
+def test_the_lamps_are_known_twice():
+    for lamp in LAMPS.values():
+        # Lambert's sum over edges against a sum over 64 × 64 points; the one cut by the horizon converges slowest.
+        assert falls_as(lamp, 1, 1, 2) == pytest.approx(irradiance(lamp), rel=1e-4)
+
+
+def test_an_answer_that_is_no_light_is_the_fault():
+    report = am.check(lambda scene, at, u: np.full(len(at), np.nan))
+    assert not report.passed
+    assert "finite numbers are needed" in report.faults[0]
+
+
+RIGHT_FILE = (Path(__file__).parent / "own_estimators.py").read_text(encoding="utf-8")
+
+
+def test_the_command_checks_a_function_of_a_file(antumbra, tmp_path):
+    Path("mine.py").write_text(RIGHT_FILE, encoding="utf-8")
+    ended = antumbra("check", "mine.py", "--function", "area", "--json")
+    assert ended.code == 0
+    assert json.loads(ended.out)["passed"] is True
+    assert "note: mine.py: its code is run as it stands" in ended.err
+    ended = antumbra("check", "mine.py", "--function", "even_over_cosine")
+    assert ended.code == 1
+    assert "directions drawn evenly" in ended.out
+
+
+@pytest.mark.parametrize(
+    ("text", "says"),
+    [
+        ("x = 1\n", "has 0 functions of (scene, at, u)"),
+        ("def a(s, at, u): return 0\ndef b(s, at, u): return 0\n", '"a", "b". Name one with --function.'),
+        ("import nothing_like_it\n", "line 1: ModuleNotFoundError"),
+        ("def a(s, at, u:\n", "line 1: SyntaxError"),
+        ("\ndef a(s, at, u):\n    return s.ocluded(at)\n", "line 3: in a: AttributeError"),
+        ("KIND = 'dark'\ndef a(s, at, u): return 0\n", 'kind is "dark"'),
+        ("def a(s, at, u): raise SystemExit(3)\n", "line 1: in a: SystemExit"),
+    ],
+)
+def test_what_cannot_be_checked_is_said_with_its_line(antumbra, text, says):
+    Path("mine.py").write_text(text, encoding="utf-8")
+    ended = antumbra("check", "mine.py")
+    assert ended.code == 2
+    assert says in ended.err
+    assert "Traceback" not in ended.err
+
+
+def test_a_file_that_is_not_there(antumbra):
+    assert antumbra("check", "nix.py").err.endswith("error: nix.py: there is no such file\n")

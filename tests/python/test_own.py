@@ -1,0 +1,135 @@
+"""Estimators of one's own: rendered like built-in ones, with the same rays and the same numbers."""
+
+from __future__ import annotations
+
+import re
+
+import numpy as np
+import pytest
+
+import antumbra as am
+from own_estimators import area, hemisphere, mis
+
+SIZE = (40, 30)
+
+
+@pytest.mark.parametrize("sampler", ["owen", "random", "stratified"])
+def test_one_light_gives_the_very_picture_of_the_built_in_estimator(sampler):
+    scene = am.builtin("pillars")
+    mine, theirs = (
+        scene.render(estimator=e, viewing_rays=8, size=SIZE, sampler=sampler, seed=3) for e in (area, "area")
+    )
+    # The same rays, numbers and sums; single and double precision differ by some roundings of 2⁻²⁴ each.
+    assert np.allclose(mine.pixels, theirs.pixels, rtol=2e-5, atol=1e-7)
+    assert np.allclose(mine.standard_error, theirs.standard_error, rtol=1e-3, atol=1e-6)
+
+
+@pytest.mark.parametrize("name", ["pillars", "cornell-box", "antumbra", "sky-dome"])
+@pytest.mark.parametrize("estimator", [area, mis], ids=lambda e: e.__name__)
+def test_the_mean_is_that_of_the_built_in_estimator(name, estimator):
+    scene = am.builtin(name)
+    mine = scene.render(estimator=estimator, viewing_rays=32, size=SIZE, seed=1)
+    # `area` is as blind to mirrors as these are.
+    theirs = scene.render(estimator="area", viewing_rays=32, size=SIZE, seed=2)
+    errors = [image.standard_error.astype(np.float64).mean(axis=2) for image in (mine, theirs)]
+    difference = (mine.pixels.astype(np.float64) - theirs.pixels).mean(axis=2)
+    # A sum over 1,200 pixels of independent errors, so normal. Two-sided, α = 1e-6: |z| < 4.9.
+    error = np.sqrt((errors[0] ** 2 + errors[1] ** 2).sum()) / difference.size
+    assert abs(difference.mean()) < 4.9 * error + 1e-6
+
+
+def test_lights_at_infinity_behind_one_another_are_weighed_without_bias():
+    scene = am.Scene()
+    scene.add_mesh([(-9, 0, -9), (-9, 0, 9), (9, 0, 9), (9, 0, -9)], [(0, 1, 2), (0, 2, 3)])
+    scene.add_light(am.lights.Environment(1.0))
+    scene.add_light(am.lights.Sun((0, 1, 0), 0.5, 3.0))
+    view = {"eye": (0, 1, 0.1), "look_at": (0, 0, 0), "size": (16, 12), "viewing_rays": 256}
+    image = scene.render(estimator=mis, **view)
+    # ρ (L_sky + L_sun sin² α) for a diffuse floor under both; four standard errors of 576 means of 256 samples.
+    truth = 0.5 * (1.0 + 3.0 * np.sin(0.5) ** 2)
+    error = float(
+        np.sqrt((image.standard_error.astype(np.float64) ** 2).sum()) / image.pixels.size
+    ) * np.sqrt(3)
+    assert abs(image.pixels.mean() - truth) < 4 * error + 1e-6
+
+
+def test_a_direction_is_found_as_densely_as_it_is_drawn():
+    scene = am.builtin("pillars")
+    hit = scene.closest_hit(*scene.camera_rays(SIZE))
+    hit = scene.closest_hit(*(rays[np.isfinite(hit.t)] for rays in scene.camera_rays(SIZE)))
+    drawn = scene.sample_light(hit, u=np.random.default_rng(5).random((len(hit), 3)))
+    free = ~scene.occluded(hit, drawn.target) & (drawn.radiance.sum(axis=1) > 0)
+    found = scene.find_light(hit, directions=drawn.direction)
+    assert free.mean() > 0.5
+    # The same density worked out from the point and from the direction, in single precision.
+    assert np.allclose(found.pdf[free], drawn.pdf[free], rtol=1e-3)
+    assert np.allclose(found.radiance[free], drawn.radiance[free], rtol=1e-5)
+    assert (found.pdf[~free & (drawn.radiance.sum(axis=1) > 0)] == 0).all()
+
+
+def test_numbers_are_other_ones_at_each_call_and_the_same_in_another_render():
+    asked = []
+
+    def grey(scene, at, u):
+        asked.append([u(1), u(2), u(2), u(3), u(4)])
+        return np.full(len(at), 0.5)
+
+    scene = am.builtin("pillars")
+    images = [scene.render(estimator=grey, viewing_rays=2, size=SIZE, seed=4) for _ in range(2)]
+    assert images[0].hash == images[1].hash
+    shapes = [[n.shape[1] for n in calls] for calls in asked]
+    assert shapes == [[1, 2, 2, 3, 4]] * 4
+    columns = np.concatenate(asked[0], axis=1).T
+    assert ((columns >= 0) & (columns < 1)).all()
+    # No column is another again: 12 columns of some 1,000 numbers correlate by less than 5/√1000.
+    off = np.corrcoef(columns) - np.eye(len(columns))
+    assert np.abs(off).max() < 5 / np.sqrt(columns.shape[1])
+    assert all((a == b).all() for a, b in zip(asked[0], asked[2], strict=True))
+
+
+@pytest.mark.parametrize(
+    ("answer", "says"),
+    [
+        (lambda s, at, u: np.zeros((3, 3)), "returned shape (3, 3)"),
+        (lambda s, at, u: np.full(len(at), np.nan), "finite numbers are needed"),
+        (lambda s, at, u: ["a"] * len(at), "numbers are needed"),
+        (lambda s, at, u: u(0), "at least one number"),
+    ],
+)
+def test_what_is_no_light_is_refused(answer, says):
+    with pytest.raises(ValueError, match=re.escape(says)):
+        am.builtin("pillars").render(estimator=answer, viewing_rays=1, size=(8, 6))
+
+
+def test_settings_of_built_in_estimators_are_refused():
+    with pytest.raises(am.OptionError, match="shadow_rays belongs to the built-in estimators: area decides"):
+        am.builtin("pillars").render(estimator=area, shadow_rays=4)
+
+
+def test_a_stopped_render_keeps_its_passes():
+    scene = am.builtin("pillars")
+    image = scene.render(estimator=area, viewing_rays=64, size=SIZE, progress=lambda p: p.passes_done < 3)
+    assert (image.passes_done, image.passes) == (3, 64)
+    assert image.metadata["antumbra.passes"] == "3 of 64"
+    assert image.metadata["antumbra.estimator"] == "area (a function of Python)"
+
+    def interrupted(scene, at, u):
+        if interrupted.calls == 2:
+            raise KeyboardInterrupt
+        interrupted.calls += 1
+        return area(scene, at, u)
+
+    interrupted.calls = 0
+    with pytest.raises(am.RenderStopped) as raised:
+        scene.render(estimator=interrupted, viewing_rays=8, size=SIZE)
+    assert raised.value.image.passes_done == 2
+
+
+def test_a_picture_of_ones_own_is_saved_and_kept_like_any_other(tmp_path):
+    import pickle
+
+    image = am.builtin("cornell-box").render(estimator=hemisphere, viewing_rays=2, size=SIZE)
+    image.save(tmp_path / "mine.exr")
+    assert (am.load_image(tmp_path / "mine.exr").shape) == (30, 40, 3)
+    again = pickle.loads(pickle.dumps(image))
+    assert again.hash == image.hash == image.metadata["antumbra.pixel-hash"]
