@@ -122,7 +122,7 @@ fn materials_carry_their_factors_textures_and_emission() {
     assert!(s.materials.iter().any(|m| m.emission.is_some_and(|e| e.radiance.max() > 1.0)));
     let s = scene(&data, "bake/suzanne_orm/02_suzanne.gltf");
     let m = &s.materials[0];
-    assert!(m.color.is_some() && m.metallic_roughness.is_some());
+    assert!(m.color.is_some() && m.metallic.is_some() && m.roughness.is_some());
     assert!(matches!(m.surface, Surface::MetallicRoughness { .. }));
     let s = scene(&data, "scenes/gltf/texture_transform/09_texture_transform.gltf");
     assert!(s.textures[0].map != [1.0, 0.0, 0.0, 0.0, 1.0, 0.0]);

@@ -224,7 +224,7 @@ fn glass_and_normal_maps() {
     made.floats("VEC4", 4, &[1.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 1.0]);
     let attributes = r#"{"POSITION":0,"NORMAL":1,"TEXCOORD_0":2,"TANGENT":3}"#;
     let primitives: Vec<_> =
-        (0..5).map(|m| format!(r#"{{"attributes":{attributes},"material":{m}}}"#)).collect();
+        (0..6).map(|m| format!(r#"{{"attributes":{attributes},"material":{m}}}"#)).collect();
     let glass = r#""KHR_materials_transmission":{"transmissionFactor":1}"#;
     let smooth = r#""pbrMetallicRoughness":{"metallicFactor":0,"roughnessFactor":0}"#;
     let s = made
@@ -239,7 +239,9 @@ fn glass_and_normal_maps() {
                   "extensions":{{{glass},"KHR_materials_volume":{{"thicknessFactor":1}},
                   "KHR_materials_ior":{{"ior":2}}}}}},
                 {{{smooth},"extensions":{{"KHR_materials_transmission":
-                  {{"transmissionFactor":0.25,"transmissionTexture":{{"index":0}}}}}}}}]"#,
+                  {{"transmissionFactor":0.25,"transmissionTexture":{{"index":0}}}}}}}},
+                {{"pbrMetallicRoughness":{{"metallicFactor":0,"roughnessFactor":0.5,
+                  "metallicRoughnessTexture":{{"index":0}}}},"extensions":{{{glass}}}}}]"#,
             primitives.join(",")
         ))
         .unwrap();
@@ -254,6 +256,11 @@ fn glass_and_normal_maps() {
     assert!((first, second, weight) == (4, 5, 0.25) && s.materials[6].blend.is_some());
     assert!(matches!(s.materials[4].surface, Surface::MetallicRoughness { .. }));
     assert!(matches!(s.materials[5].surface, Surface::ThinDielectric(_)));
+    // A pane of ground glass: α = roughness² times the square of green.
+    let Surface::RoughThinDielectric(pane) = s.materials[7].surface else { panic!() };
+    assert_eq!(pane.facets().alpha(), [0.25; 2]);
+    let roughness = s.materials[7].roughness.clone().unwrap();
+    assert!(roughness.squared && roughness.channel.component == 1);
 }
 
 /// A white PNG of one pixel.

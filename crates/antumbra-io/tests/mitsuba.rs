@@ -156,6 +156,86 @@ fn a_mask_lets_its_share_pass() {
 }
 
 #[test]
+fn a_mask_by_texture_keeps_both_pictures_as_they_are() {
+    let fields = |name: &str, scale: u32| {
+        format!(
+            "<texture name='{name}' type='checkerboard'><rgb name='color0' value='0,1,0'/><transform name='to_uv'>\
+             <scale value='{scale}'/></transform></texture>"
+        )
+    };
+    let inner = format!("<bsdf type='diffuse'>{}</bsdf>", fields("reflectance", 2));
+    let s = scene(&format!(
+        "<shape type='cube'><bsdf type='mask'>{}{inner}</bsdf></shape>",
+        fields("opacity", 7)
+    ));
+    let look = &s.materials[s.objects[0].material as usize];
+    let [color, cover] = [look.color, look.cover].map(|id| &s.textures[id.unwrap() as usize]);
+    assert_eq!((color.map[0], cover.map[0]), (2.0, 7.0));
+    assert_eq!((color.image.texel(0, 0), cover.image.texel(0, 0)[0]), ([0.0, 1.0, 0.0, 1.0], 0.7152));
+    assert_eq!((look.alpha, look.opacity), (Alpha::Blend, 1.0));
+}
+
+/// The look of a cube with this bsdf, without a warning but for what the scene lacks.
+fn look_of(bsdf: &str) -> (SceneBuilder, antumbra::scene::Material) {
+    let s = scene(&format!("<shape type='cube'>{bsdf}</shape>{BALL}"));
+    assert!(warnings(&s).iter().all(|w| w.contains("no emitter") || w.contains("no sensor")), "{bsdf}");
+    let look = s.materials[s.objects[0].material as usize].clone();
+    (s, look)
+}
+
+#[test]
+fn numbers_of_a_look_may_be_textures() {
+    let fields = |name: &str| {
+        format!("<texture name='{name}' type='checkerboard'><rgb name='color0' value='0,1,0'/></texture>")
+    };
+    for plugin in ["roughconductor", "roughdielectric", "roughplastic"] {
+        let (s, look) = look_of(&format!("<bsdf type='{plugin}'>{}</bsdf>", fields("alpha")));
+        let roughness = look.roughness.unwrap();
+        let image = &s.textures[roughness.channel.texture as usize].image;
+        // Green counts by its luminance.
+        assert_eq!((roughness.squared, image.texel(0, 0)[0]), (false, 0.7152), "{plugin}");
+        assert_eq!(look.surface.facets().unwrap().alpha(), [1.0; 2]);
+    }
+    let (s, look) =
+        look_of(&format!("<bsdf type='principled'>{}{}</bsdf>", fields("metallic"), fields("roughness")));
+    let (metal, rough) = (look.metallic.unwrap(), look.roughness.unwrap());
+    assert!(s.textures[metal.texture as usize].image.texel(0, 0)[0] == 0.7152 && rough.squared);
+    for plugin in ["plastic", "roughplastic", "dielectric", "roughdielectric", "thindielectric"] {
+        let gloss = fields("specular_reflectance");
+        let (s, look) = look_of(&format!("<bsdf type='{plugin}'>{gloss}</bsdf>"));
+        assert_eq!(s.textures[look.gloss.unwrap() as usize].image.texel(0, 0), [0.0, 1.0, 0.0, 1.0]);
+    }
+    let half = "<float name='specular_reflectance' value='0.5'/>";
+    let (_, look) = look_of(&format!("<bsdf type='plastic'>{half}</bsdf>"));
+    assert!(matches!(look.surface, Surface::Plastic { gloss: Rgb([0.5, 0.5, 0.5]), .. }));
+}
+
+#[test]
+fn a_bumpmap_has_heights_and_a_scale() {
+    let heights =
+        "<texture type='checkerboard'><transform name='to_uv'><scale value='3'/></transform></texture>";
+    let scale = "<float name='scale' value='0.25'/>";
+    let inner = "<bsdf type='diffuse'/>";
+    let (s, look) =
+        look_of(&format!("<bsdf type='twosided'><bsdf type='bumpmap'>{heights}{scale}{inner}</bsdf></bsdf>"));
+    let bump = look.bump.unwrap();
+    assert_eq!((bump.scale, s.textures[bump.texture as usize].map[0]), (0.25, 3.0));
+    assert!(matches!(look.surface, Surface::Diffuse { .. }) && !look.one_sided);
+    let error = refused(&format!("<shape type='cube'><bsdf type='bumpmap'>{inner}</bsdf></shape>"));
+    assert!(error.contains("needs a texture of heights"), "{error}");
+}
+
+#[test]
+fn a_spot_falls_off_linearly() {
+    let s = scene(&format!(
+        "{BALL}<emitter type='spot'><float name='cutoff_angle' value='40'/><float name='beam_width' value='10'/></emitter>"
+    ));
+    assert!(s.messages.iter().all(|m| m.text.contains("sensor")), "{:?}", s.messages);
+    let Light::Spot(spot) = &s.lights[0].1 else { panic!("{:?}", s.lights[0]) };
+    assert_eq!(spot.edge, antumbra::light::SpotEdge::Linear);
+}
+
+#[test]
 fn a_blend_has_two_looks_and_a_weight() {
     let cube = |bsdf: &str| {
         let s = scene(&format!("<shape type='cube'>{bsdf}</shape>{BALL}"));

@@ -96,7 +96,7 @@ pub fn material(kind: &str, fields: &Fields, emission: Option<[f32; 3]>) -> PyRe
             let id = |name| Ok::<_, PyErr>(fields.numbers(name, 1)?[0] as u32);
             Material::blend(id("first")?, id("second")?, fields.number("weight")?)
         }
-        "ThinDielectric" => Material::thin_dielectric(fields.number("ior")?),
+        "ThinDielectric" => Material::thin_dielectric(fields.number("ior")?, fields.facets()?),
         _ => return unknown("material", kind),
     };
     let emission = emission.map(|radiance| Emission { radiance: Rgb(radiance), both_sides: false });

@@ -110,6 +110,23 @@ fn white_plastic_is_a_white_furnace() {
     }
 }
 
+#[test]
+fn a_coat_thinner_than_the_air_is_a_white_furnace() {
+    // Its share kinks where total reflection begins, more sharply the narrower the facets are: quadrature and table err by
+    // up to 0.005 there (0.0048 measured at η 0.5, α 0.05; 0.16 with places that do not follow the kink).
+    for (eta, alpha) in [(0.3f32, 0.05), (0.3, 0.3), (0.5, 0.002), (0.5, 0.05), (1.0 / 1.5, 0.05), (0.9, 0.1)]
+    {
+        let edge = real::safe_sqrt((1.0 - eta) * (1.0 + eta));
+        let facets = Facets::isotropic(alpha);
+        let bsdf = Bsdf::RoughPlastic(RoughPlastic::new(RoughCoat::new(eta, facets, true), Rgb::WHITE));
+        let near = [-0.05, -0.01, 0.0, 0.01, 0.05].map(|off| edge + off);
+        for cos in [1.0, 0.5, 0.1, 0.01, 0.002].into_iter().chain(near.into_iter().filter(|c| *c < 1.0)) {
+            let a = albedo(&bsdf, cos, 0);
+            assert!((a - 1.0).abs() <= 5e-3, "η {eta} α {alpha} cos {cos}: {a}");
+        }
+    }
+}
+
 fn white(facets: Facets) -> Bsdf {
     Bsdf::RoughPlastic(RoughPlastic::new(RoughCoat::new(1.5, facets, true), Rgb::WHITE))
 }
@@ -197,7 +214,10 @@ fn albedo_is_the_mean_over_directions() {
             let said = f64::from(bsdf.albedo().0[c]);
             // Midpoints over 24 strips of a curve that rises by at most 1 within the first two: 1/24². Metals say what
             // masking leaves apart from what Fresnel's equations leave, and facets are measured by few samples: a twentieth.
-            let rough = matches!(bsdf, Bsdf::RoughConductor(_) | Bsdf::RoughDielectric(_));
+            let rough = matches!(
+                bsdf,
+                Bsdf::RoughConductor(_) | Bsdf::RoughDielectric(_) | Bsdf::RoughThinDielectric(_)
+            );
             // Where total reflection sets in the curve falls like a root: 1/24^(3/2).
             let total =
                 matches!(bsdf, Bsdf::Plastic(_)) && bsdf.eval(outgoing(0.2), outgoing(1.0)).is_black();

@@ -42,6 +42,13 @@ impl Facets {
         Facets::new(alpha, alpha)
     }
 
+    /// The same slopes, their widths times `by`.
+    #[inline]
+    pub(crate) fn scaled(self, by: f32) -> Facets {
+        let [u, v] = self.alpha;
+        Facets { slopes: self.slopes, ..Facets::new(u * by, v * by) }
+    }
+
     /// α along the first and second tangent.
     pub fn alpha(self) -> [f32; 2] {
         self.alpha

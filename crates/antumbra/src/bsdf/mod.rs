@@ -15,9 +15,11 @@ mod metal;
 mod metallic_roughness;
 mod mirror;
 mod plastic;
+mod rough_coat;
 mod rough_conductor;
 mod rough_dielectric;
 mod rough_plastic;
+mod rough_thin_dielectric;
 mod thin_dielectric;
 
 pub use conductor::Conductor;
@@ -29,9 +31,11 @@ pub use metal::Metal;
 pub use metallic_roughness::MetallicRoughness;
 pub use mirror::Mirror;
 pub use plastic::{Coat, Plastic};
+pub use rough_coat::RoughCoat;
 pub use rough_conductor::RoughConductor;
 pub use rough_dielectric::RoughDielectric;
-pub use rough_plastic::{RoughCoat, RoughPlastic};
+pub use rough_plastic::RoughPlastic;
+pub use rough_thin_dielectric::RoughThinDielectric;
 pub use thin_dielectric::ThinDielectric;
 
 use antumbra_math::{Local, Rgb};
@@ -150,6 +154,7 @@ kinds!(
     Dielectric,
     ThinDielectric,
     RoughDielectric,
+    RoughThinDielectric,
     Plastic,
     RoughPlastic,
 );

@@ -32,6 +32,8 @@ pub struct Plastic {
     coat: Coat,
     /// ρ / (π η² (1 − ρ R)).
     base: Rgb,
+    /// Factor of what the coat reflects outside, in [0, 1].
+    gloss: Rgb,
 }
 
 /// ρ / (π η² (1 − ρ R)), or with 1 for the second ρ if light does not take the base's colour at inner bounces.
@@ -49,7 +51,12 @@ impl Plastic {
     /// A coat over a base of albedo ρ in [0, 1].
     pub fn new(coat: Coat, albedo: Rgb) -> Plastic {
         let internal = internal(coat.mean, coat.eta);
-        Plastic { coat, base: base(albedo, coat.eta, internal, coat.nonlinear) }
+        Plastic { coat, base: base(albedo, coat.eta, internal, coat.nonlinear), gloss: Rgb::WHITE }
+    }
+
+    /// The same whose coat mirrors `gloss` times as much; what it lets through stays.
+    pub fn with_gloss(self, gloss: Rgb) -> Plastic {
+        Plastic { gloss, ..self }
     }
 
     #[inline]
@@ -62,7 +69,8 @@ impl Plastic {
     fn mirrors(&self, reflected: f32) -> f32 {
         // The floor keeps a black base without a coat (η = 1) from dividing 0 by 0.
         let spread = (1.0 - reflected) * self.base.mean() * real::PI * (1.0 - self.coat.mean);
-        reflected / (reflected + spread).max(1e-20)
+        let mirrored = reflected * self.gloss.mean();
+        mirrored / (mirrored + spread).max(1e-20)
     }
 }
 
@@ -85,7 +93,7 @@ impl BsdfKind for Plastic {
         let reflected = self.reflected(wo.cos());
         let mirrors = self.mirrors(reflected);
         if u[2] < mirrors {
-            let throughput = Rgb::grey(reflected / mirrors);
+            let throughput = self.gloss * (reflected / mirrors);
             return Some(BsdfSample { wi: wo.mirrored(), throughput, density: Density::Delta });
         }
         let wi = warp::cosine_hemisphere([u[0], u[1]]);
@@ -114,7 +122,7 @@ impl BsdfKind for Plastic {
 
     fn albedo(&self) -> Rgb {
         let through = 1.0 - self.coat.mean;
-        Rgb::grey(self.coat.mean) + self.base * (real::PI * through * through)
+        self.gloss * self.coat.mean + self.base * (real::PI * through * through)
     }
 
     fn examples() -> Vec<Plastic> {
@@ -127,6 +135,7 @@ impl BsdfKind for Plastic {
             of(1.0 / 1.5, true, Rgb([1.0, 0.5, 0.1])),
             of(0.3, true, Rgb([1.0, 0.5, 0.1])),
             of(0.3, false, Rgb([1.0, 0.5, 0.1])),
+            of(1.5, true, Rgb([1.0, 0.5, 0.1])).with_gloss(Rgb([0.0, 0.5, 1.0])),
         ]
     }
 }

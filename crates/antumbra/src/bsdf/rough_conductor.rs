@@ -30,6 +30,16 @@ impl RoughConductor {
         self.facets
     }
 
+    /// The same with other facets.
+    pub(crate) fn with_facets(self, facets: Facets) -> RoughConductor {
+        RoughConductor::new(self.metal, self.reflectance, facets)
+    }
+
+    /// The same with `facets` that lie a part `t` of the way from its own to those of `to`.
+    pub(crate) fn between(self, to: &RoughConductor, t: f32, facets: Facets) -> RoughConductor {
+        RoughConductor { facets, kept: self.kept + (to.kept - self.kept) * t, ..self }
+    }
+
     /// F of a facet whose normal halves the directions; `v` = ω_o + ω_i, so that ω_o·m = |v|/2.
     #[inline]
     fn fresnel(&self, half_length: f32) -> Rgb {

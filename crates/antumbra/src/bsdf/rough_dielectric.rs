@@ -66,6 +66,17 @@ impl RoughDielectric {
         self.facets
     }
 
+    /// The same with other facets.
+    pub(crate) fn with_facets(self, facets: Facets) -> RoughDielectric {
+        let RoughDielectric { kept, .. } = RoughDielectric::new(self.eta, facets);
+        RoughDielectric { facets, kept, ..self }
+    }
+
+    /// The same with `facets` that lie a part `t` of the way from its own to those of `to`.
+    pub(crate) fn between(self, to: &RoughDielectric, t: f32, facets: Facets) -> RoughDielectric {
+        RoughDielectric { facets, kept: self.kept + (to.kept - self.kept) * t, ..self }
+    }
+
     /// The same surface seen from its other side.
     pub fn turned(self) -> RoughDielectric {
         RoughDielectric { eta: 1.0 / self.eta, ..self }

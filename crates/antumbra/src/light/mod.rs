@@ -27,7 +27,7 @@ pub use far::{Far, FarLights};
 pub use point::Point;
 pub use rectangle::Rectangle;
 pub use sphere::Sphere;
-pub use spot::Spot;
+pub use spot::{Spot, SpotEdge};
 pub use sun::Sun;
 pub use triangle::Triangle;
 

@@ -1,4 +1,4 @@
-//! A point that shines into a cone with a soft edge (glTF `KHR_lights_punctual`).
+//! A point that shines into a cone with a soft edge (glTF `KHR_lights_punctual`, Mitsuba's `spot`).
 
 use antumbra_math::{Rgb, World, real};
 use antumbra_trace::NO_PRIM;
@@ -7,6 +7,16 @@ use super::flat::amount_fault;
 use super::{End, LightBounds, LightHit, LightKind, LightPoints, LightSample, OutlinePoint};
 use crate::density::Density;
 use crate::receiver::Receiver;
+
+/// How the light of a spot falls off between its two angles.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum SpotEdge {
+    /// t² with t = (cos a − cos outer) / max(0.001, cos inner − cos outer) in [0, 1]: glTF.
+    #[default]
+    Smooth,
+    /// (outer − a) / (outer − inner): Mitsuba.
+    Linear,
+}
 
 /// A spot light.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,12 +31,17 @@ pub struct Spot {
     pub inner: f32,
     /// Half-angle from which on there is no light [rad].
     pub outer: f32,
+    /// How I falls off between the two.
+    pub edge: SpotEdge,
     /// Distance at which the light has faded to nothing; `None`: never.
     pub range: Option<f32>,
 }
 
+/// A linear edge narrower than this [rad] is one as wide.
+const NARROWEST: f32 = 1e-3;
+
 impl Spot {
-    /// A spot light; `direction` of any length above 0, angles in radians.
+    /// A spot light with glTF's edge; `direction` of any length above 0, angles in radians.
     pub fn new(
         position: World,
         direction: World,
@@ -36,13 +51,17 @@ impl Spot {
         range: Option<f32>,
     ) -> Spot {
         let direction = direction.as_dvec3().normalize().as_vec3();
-        Spot { position, direction, intensity, inner, outer, range }
+        Spot { position, direction, intensity, inner, outer, edge: SpotEdge::Smooth, range }
     }
 
-    /// t = (cos a − cos outer) / max(0.001, cos inner − cos outer) in [0, 1]; the edge falls off as t².
+    /// The share of I at an angle from the axis.
     #[inline]
-    fn edge(&self, cos: f32) -> f32 {
+    fn share(&self, cos: f32) -> f32 {
         let cos_outer = real::cosf(self.outer);
+        if self.edge == SpotEdge::Linear {
+            let width = (self.outer - self.inner).max(NARROWEST);
+            return ((self.outer - real::acosf(cos.clamp(-1.0, 1.0))) / width).clamp(0.0, 1.0);
+        }
         let t = ((cos - cos_outer) / (real::cosf(self.inner) - cos_outer).max(0.001)).clamp(0.0, 1.0);
         t * t
     }
@@ -63,7 +82,7 @@ impl Spot {
         let distance2 = to_light.length_squared();
         let distance = distance2.sqrt();
         let wi = to_light / distance;
-        let share = self.edge(-wi.dot(self.direction)) * self.fade(distance2) / distance2;
+        let share = self.share(-wi.dot(self.direction)) * self.fade(distance2) / distance2;
         (share > 0.0 && share.is_finite()).then(|| (wi, distance, self.intensity * share))
     }
 }
@@ -99,10 +118,17 @@ impl LightKind for Spot {
         self.arrival(at.p).map_or(0.0, |(wi, _, e)| e.luminance() * wi.dot(at.ng).max(0.0))
     }
 
-    /// 2π I [(1 − cos inner) + (cos inner − cos outer)/3].
+    /// 2π I [(1 − cos inner) + (cos inner − cos outer)/3]; linear: 2π I [1 − (sin outer − sin inner)/(outer − inner)].
     fn power(&self, _scene_radius: f32) -> f32 {
         let (inner, outer) = (real::cosf(self.inner), real::cosf(self.outer));
-        2.0 * real::PI * self.intensity.luminance() * ((1.0 - inner) + (inner - outer) / 3.0)
+        let width = self.outer - self.inner;
+        let share = match self.edge {
+            SpotEdge::Linear if width > NARROWEST => {
+                1.0 - (real::sinf(self.outer) - real::sinf(self.inner)) / width
+            }
+            _ => (1.0 - inner) + (inner - outer) / 3.0,
+        };
+        2.0 * real::PI * self.intensity.luminance() * share
     }
 
     fn bounds(&self) -> LightBounds {
@@ -141,7 +167,7 @@ impl LightKind for Spot {
     fn examples() -> Vec<Spot> {
         let (at, down) = (World::new(0.0, 3.0, 0.0), World::NEG_Y);
         vec![
-            Spot::new(at, down, Rgb::grey(100.0), 0.3, 0.6, None),
+            Spot { edge: SpotEdge::Linear, ..Spot::new(at, down, Rgb::grey(100.0), 0.3, 0.6, None) },
             Spot::new(at, World::new(0.2, -1.0, 0.1), Rgb::new(9.0, 8.0, 7.0), 0.0, 1.2, Some(5.0)),
         ]
     }

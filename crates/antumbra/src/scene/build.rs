@@ -22,6 +22,7 @@ impl SceneBuilder {
         self.check_materials()?;
         self.check_meshes()?;
         self.check_objects()?;
+        self.check_heights();
         self.make_tangents();
         self.check_lights();
         self.check_cameras();
@@ -51,12 +52,9 @@ impl SceneBuilder {
                 self.say(Level::Warning, material_place(i, &self.materials[i]), text);
             }
             let m = &self.materials[i];
-            let normal = m.normal.map(|map| map.texture);
-            for texture in [m.color, m.metallic_roughness, m.blend, normal].into_iter().flatten() {
-                if texture as usize >= self.textures.len() {
-                    let what = format!("asks for texture {texture} of {}", self.textures.len());
-                    return Err(SceneError::new(material_place(i, m), what, ""));
-                }
+            if let Some(texture) = m.textures().find(|t| *t as usize >= self.textures.len()) {
+                let what = format!("asks for texture {texture} of {}", self.textures.len());
+                return Err(SceneError::new(material_place(i, m), what, ""));
             }
             let blends = match m.surface {
                 Surface::Blend { first, second, .. } => Some(first.max(second)),
@@ -75,6 +73,11 @@ impl SceneBuilder {
                 let what = format!("emits {:?}: radiance must be finite and not negative", e.radiance.0);
                 return Err(SceneError::new(material_place(i, m), what, ""));
             }
+            let (m, textures) = (&mut self.materials[i], &self.textures);
+            m.roughness = m.roughness.take().map(|roughness| {
+                let texture = &textures[roughness.channel.texture as usize];
+                roughness.of(&m.surface, texture)
+            });
         }
         Ok(())
     }
@@ -161,6 +164,26 @@ impl SceneBuilder {
         }
         self.objects = kept;
         Ok(())
+    }
+
+    /// Says where heights cannot be drawn.
+    fn check_heights(&mut self) {
+        for object in &self.objects {
+            let look = |id: u32| self.materials[id as usize].bump;
+            let Some(map) = blended(&self.materials, object.material).into_iter().find_map(look) else {
+                continue;
+            };
+            let set = usize::from(self.textures[map.texture as usize].uv_set);
+            let bare = match object.body {
+                Body::Mesh(m) => self.meshes[m as usize].uvs.get(set).is_none_or(Option::is_none),
+                Body::Shape(_) => true,
+            };
+            if bare {
+                let place = format!("object \"{}\"", object.name);
+                let text = "has heights and no texture coordinates: drawn without them".into();
+                self.messages.push(Message { level: Level::Warning, place, text });
+            }
+        }
     }
 
     /// Meshes under a normal map or with facets of two widths get tangents if they bring none; a mesh that objects look at

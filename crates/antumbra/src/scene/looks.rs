@@ -2,7 +2,7 @@
 
 use antumbra_math::{Rgb, hash};
 
-use super::{Body, Look, Material, Placed, Scene, Surface, TextureId};
+use super::{Body, Channel, Look, Material, Placed, Scene, Surface, TextureId};
 use crate::bsdf::{Bsdf, Diffuse, MetallicRoughness, Mirror, Plastic, RoughPlastic};
 
 /// Tells the numbers of blends in blends apart.
@@ -21,8 +21,37 @@ impl Scene {
         if material.one_sided && !front {
             return Bsdf::Diffuse(Diffuse { albedo: Rgb::BLACK });
         }
-        let metal_rough = || self.texel(at, material.metallic_roughness).unwrap_or([1.0; 4]);
-        reflection(&material.surface, front, |c| self.tinted(c, material, at), metal_rough)
+        let gloss = |c: Rgb| match self.texel(at, material.gloss) {
+            Some([r, g, b, _]) => c * Rgb([r, g, b]),
+            None => c,
+        };
+        let tint = |c| self.tinted(c, material, at);
+        let metal_rough = || self.metal_rough(material, at);
+        if let Some(roughness) = &material.roughness {
+            let texel = self.number(at, roughness.channel);
+            if let Some(surface) = roughness.at(&material.surface, texel) {
+                return reflection(&surface, front, tint, gloss, metal_rough);
+            }
+        }
+        reflection(&material.surface, front, tint, gloss, metal_rough)
+    }
+
+    /// Factors of metallic and of roughness.
+    fn metal_rough(&self, material: &Material, at: At<'_>) -> [f32; 2] {
+        let rough = material.roughness.as_ref().map(|r| r.channel);
+        match (material.metallic, rough) {
+            (Some(m), Some(r)) if m.texture == r.texture => {
+                let texel = self.texel(at, Some(m.texture)).unwrap_or([1.0; 4]);
+                [m, r].map(|c| texel[usize::from(c.component & 3)])
+            }
+            both => [both.0, both.1].map(|c| c.map_or(1.0, |c| self.number(at, c))),
+        }
+    }
+
+    /// One number of a texture at a point; 1 where a mesh has none.
+    fn number(&self, at: At<'_>, channel: Channel) -> f32 {
+        let texel = self.texel(at, Some(channel.texture)).unwrap_or([1.0; 4]);
+        texel[usize::from(channel.component & 3)]
     }
 
     /// The look of an object's side at a point: of a blend, the one that `number` draws.
@@ -72,13 +101,14 @@ impl Scene {
     }
 }
 
-/// The BSDF of a surface on its front or back; `tint` multiplies a colour by the texture's, `metal_rough` is the texel of
-/// metallic (blue) and roughness (green).
+/// The BSDF of a surface on its front or back; `tint` and `gloss` multiply its colours by those of textures, `metal_rough`
+/// gives the factors of metallic and roughness.
 fn reflection(
     surface: &Surface,
     front: bool,
     tint: impl Fn(Rgb) -> Rgb,
-    metal_rough: impl Fn() -> [f32; 4],
+    gloss: impl Fn(Rgb) -> Rgb,
+    metal_rough: impl Fn() -> [f32; 2],
 ) -> Bsdf {
     match *surface {
         Surface::Diffuse { albedo } => Bsdf::Diffuse(Diffuse { albedo: tint(albedo) }),
@@ -86,8 +116,8 @@ fn reflection(
         // An unlit one's colour is shown by `shown`; of a blend, `material_at` has drawn one.
         Surface::Unlit { .. } | Surface::Blend { .. } => Bsdf::Diffuse(Diffuse { albedo: Rgb::BLACK }),
         Surface::MetallicRoughness { base, metallic, roughness, f0 } => {
-            let [_, green, blue, _] = metal_rough();
-            let (metallic, roughness) = (metallic * blue, roughness * green);
+            let [metal, rough] = metal_rough();
+            let (metallic, roughness) = (metallic * metal, roughness * rough);
             Bsdf::MetallicRoughness(MetallicRoughness::of_index(tint(base), metallic, roughness, f0))
         }
         Surface::Conductor(mut c) => {
@@ -99,17 +129,25 @@ fn reflection(
             Bsdf::RoughConductor(c)
         }
         Surface::Dielectric(mut d) => {
-            d.transmittance = tint(d.transmittance);
+            (d.transmittance, d.reflectance) = (tint(d.transmittance), gloss(d.reflectance));
             Bsdf::Dielectric(if front { d } else { d.turned() })
         }
         Surface::ThinDielectric(mut d) => {
-            d.transmittance = tint(d.transmittance);
+            (d.transmittance, d.reflectance) = (tint(d.transmittance), gloss(d.reflectance));
             Bsdf::ThinDielectric(d)
         }
-        Surface::Plastic { albedo, coat } => Bsdf::Plastic(Plastic::new(coat, tint(albedo))),
-        Surface::RoughPlastic { albedo, coat } => Bsdf::RoughPlastic(RoughPlastic::new(coat, tint(albedo))),
+        Surface::Plastic { albedo, coat, gloss: factor } => {
+            Bsdf::Plastic(Plastic::new(coat, tint(albedo)).with_gloss(gloss(factor)))
+        }
+        Surface::RoughPlastic { albedo, coat, gloss: factor } => {
+            Bsdf::RoughPlastic(RoughPlastic::new(coat, tint(albedo)).with_gloss(gloss(factor)))
+        }
+        Surface::RoughThinDielectric(mut d) => {
+            (d.transmittance, d.reflectance) = (tint(d.transmittance), gloss(d.reflectance));
+            Bsdf::RoughThinDielectric(d)
+        }
         Surface::RoughDielectric(mut d) => {
-            d.transmittance = tint(d.transmittance);
+            (d.transmittance, d.reflectance) = (tint(d.transmittance), gloss(d.reflectance));
             Bsdf::RoughDielectric(if front { d } else { d.turned() })
         }
     }

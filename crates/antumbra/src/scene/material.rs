@@ -4,154 +4,16 @@ use std::collections::BTreeSet;
 
 use antumbra_math::Rgb;
 
+use super::{Channel, Roughness, Surface};
 use crate::bsdf::{
-    BsdfKind, Coat, Conductor, Dielectric, Facets, Metal, Mirror, Plastic, RoughCoat, RoughConductor,
-    RoughDielectric, ThinDielectric,
+    Coat, Conductor, Dielectric, Facets, Metal, RoughCoat, RoughConductor, RoughDielectric,
+    RoughThinDielectric, ThinDielectric,
 };
 
 /// Index of a material in its scene.
 pub type MaterialId = u32;
 /// Index of a texture in its scene.
 pub type TextureId = u32;
-
-/// How a surface reflects, before textures are looked up.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Surface {
-    /// f_r = ρ/π.
-    Diffuse {
-        /// ρ, times the colour texture and the vertex colours.
-        albedo: Rgb,
-    },
-    /// A perfect mirror.
-    Mirror {
-        /// Share of light reflected.
-        reflectance: Rgb,
-    },
-    /// glTF's metallic-roughness model (GGX).
-    MetallicRoughness {
-        /// Base colour, times the colour texture and the vertex colours.
-        base: Rgb,
-        /// 0 = dielectric, 1 = metal; times the blue of the metallic-roughness texture.
-        metallic: f32,
-        /// Perceptual roughness, α = roughness²; times the green of the metallic-roughness texture.
-        roughness: f32,
-        /// Share reflected straight on where it is not metal: 0.04 for the index of refraction 1.5.
-        f0: f32,
-    },
-    /// Shows its colour as radiance where the sensor looks, whatever the light, and reflects none.
-    Unlit {
-        /// Times the colour texture and the vertex colours.
-        color: Rgb,
-    },
-    /// Polished metal; the colour texture multiplies its reflectance.
-    Conductor(Conductor),
-    /// Rough metal; the colour texture multiplies its reflectance.
-    RoughConductor(RoughConductor),
-    /// Clear glass, its index that of the inside over the outside; the colour texture multiplies what it lets through.
-    Dielectric(Dielectric),
-    /// A pane of glass; the colour texture multiplies what it lets through.
-    ThinDielectric(ThinDielectric),
-    /// Ground glass; the colour texture multiplies what it lets through.
-    RoughDielectric(RoughDielectric),
-    /// Polished plastic.
-    Plastic {
-        /// Of the base, times the colour texture and the vertex colours.
-        albedo: Rgb,
-        /// The clear coat over it.
-        coat: Coat,
-    },
-    /// Rough plastic.
-    RoughPlastic {
-        /// Of the base, times the colour texture and the vertex colours.
-        albedo: Rgb,
-        /// The clear coat over it.
-        coat: RoughCoat,
-    },
-    /// One of two materials that stand before it in the scene, drawn by a hash of (ray number, primitive), so that light
-    /// is reflected as by (1 − weight) f₁ + weight f₂. Their emission and alpha do not count: its own do.
-    Blend {
-        /// The material of weight 0.
-        first: MaterialId,
-        /// The material of weight 1.
-        second: MaterialId,
-        /// Share of the second, times the red of the blend texture.
-        weight: f32,
-    },
-}
-
-impl Surface {
-    /// A part of its light leaves into single directions, where light sampling cannot see it.
-    pub fn has_single_directions(&self) -> bool {
-        match self {
-            Surface::Mirror { reflectance } => Mirror { reflectance: *reflectance }.has_single_directions(),
-            Surface::Conductor(c) => c.has_single_directions(),
-            Surface::Dielectric(d) => d.has_single_directions(),
-            Surface::ThinDielectric(d) => d.has_single_directions(),
-            Surface::Plastic { albedo, coat } => Plastic::new(*coat, *albedo).has_single_directions(),
-            Surface::RoughConductor(c) => c.has_single_directions(),
-            Surface::RoughDielectric(d) => d.has_single_directions(),
-            Surface::Diffuse { .. }
-            | Surface::Unlit { .. }
-            | Surface::MetallicRoughness { .. }
-            | Surface::RoughPlastic { .. }
-            | Surface::Blend { .. } => false,
-        }
-    }
-
-    /// Its facets are wider along one tangent than along the other, so that it matters where the tangents lie.
-    pub(super) fn is_stretched(&self) -> bool {
-        match self {
-            Surface::RoughConductor(c) => c.facets().is_stretched(),
-            Surface::RoughDielectric(d) => d.facets().is_stretched(),
-            Surface::RoughPlastic { coat, .. } => coat.facets().is_stretched(),
-            _ => false,
-        }
-    }
-
-    /// Gives it a colour: its albedo, reflectance, or what it lets through.
-    pub fn tint(&mut self, by: Rgb) {
-        if let Some(color) = self.colors().next() {
-            *color = by;
-        }
-    }
-
-    /// The colour that textures multiply, and a second one.
-    fn colors(&mut self) -> impl Iterator<Item = &mut Rgb> {
-        let (first, second) = match self {
-            Surface::Diffuse { albedo }
-            | Surface::Unlit { color: albedo }
-            | Surface::Plastic { albedo, .. }
-            | Surface::RoughPlastic { albedo, .. } => (Some(albedo), None),
-            Surface::Mirror { reflectance } => (Some(reflectance), None),
-            Surface::MetallicRoughness { base, .. } => (Some(base), None),
-            Surface::Conductor(c) => (Some(&mut c.reflectance), None),
-            Surface::RoughConductor(c) => (Some(&mut c.reflectance), None),
-            Surface::Dielectric(d) => (Some(&mut d.transmittance), Some(&mut d.reflectance)),
-            Surface::ThinDielectric(d) => (Some(&mut d.transmittance), Some(&mut d.reflectance)),
-            Surface::RoughDielectric(d) => (Some(&mut d.transmittance), Some(&mut d.reflectance)),
-            Surface::Blend { .. } => (None, None),
-        };
-        first.into_iter().chain(second)
-    }
-
-    /// The metal that it is made of.
-    fn metal(&self) -> Option<&Metal> {
-        match self {
-            Surface::Conductor(c) => Some(&c.metal),
-            Surface::RoughConductor(c) => Some(&c.metal),
-            _ => None,
-        }
-    }
-
-    /// What makes it impossible, in words.
-    pub(super) fn fault(&self) -> Option<String> {
-        let impossible = self.metal().filter(|metal| !metal.is_possible())?;
-        Some(format!(
-            "is a metal of η {:?} and k {:?}: η must be above 0, k not below",
-            impossible.eta.0, impossible.k.0
-        ))
-    }
-}
 
 /// How the alpha of the colour texture is read.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -177,6 +39,15 @@ pub struct NormalMap {
     pub scale: f32,
 }
 
+/// A picture of heights over the surface, in scene units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BumpMap {
+    /// The picture, plain numbers; red counts.
+    pub texture: TextureId,
+    /// Factor of the heights.
+    pub scale: f32,
+}
+
 /// Light that a surface gives off.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Emission {
@@ -195,12 +66,18 @@ pub struct Material {
     pub surface: Surface,
     /// Texture of the albedo or base colour, with the alpha.
     pub color: Option<TextureId>,
-    /// Texture of metallic (blue) and roughness (green).
-    pub metallic_roughness: Option<TextureId>,
+    /// Texture of what it mirrors beside its colour: plastic, glass.
+    pub gloss: Option<TextureId>,
+    /// Texture of metallic.
+    pub metallic: Option<Channel>,
+    /// Texture of roughness.
+    pub roughness: Option<Roughness>,
     /// Texture of a blend's weight, plain numbers.
     pub blend: Option<TextureId>,
     /// Bends the shading normal.
     pub normal: Option<NormalMap>,
+    /// Bends it by heights, after the normal map.
+    pub bump: Option<BumpMap>,
     /// Light given off.
     pub emission: Option<Emission>,
     /// How alpha is read.
@@ -209,8 +86,10 @@ pub struct Material {
     pub one_sided: bool,
     /// The look of its back, a material that stands before it in the scene; its emission and alpha do not count.
     pub back: Option<MaterialId>,
-    /// Alpha factor, times the texture's and the vertex colours' alpha.
+    /// Alpha factor, times the cover's red, the colour texture's alpha and the vertex colours'.
     pub opacity: f32,
+    /// Texture of alpha alone, plain numbers.
+    pub cover: Option<TextureId>,
 }
 
 impl Material {
@@ -246,17 +125,23 @@ impl Material {
         })
     }
 
-    /// A pane of clear glass without thickness; `eta` = n of the pane over n around it.
-    pub fn thin_dielectric(eta: f32) -> Material {
-        Material::of(Surface::ThinDielectric(ThinDielectric::clear(eta)))
+    /// A pane of glass without thickness, clear or ground; `eta` = n of the pane over n around it.
+    pub fn thin_dielectric(eta: f32, facets: Option<Facets>) -> Material {
+        Material::of(match facets {
+            None => Surface::ThinDielectric(ThinDielectric::clear(eta)),
+            Some(facets) => Surface::RoughThinDielectric(RoughThinDielectric::new(eta, facets)),
+        })
     }
 
     /// Plastic: a polished or rough clear coat over a diffuse base; `eta` = n of the coat over n outside, `nonlinear`: the
     /// colour deepens with each bounce between coat and base.
     pub fn plastic(albedo: Rgb, eta: f32, facets: Option<Facets>, nonlinear: bool) -> Material {
         Material::of(match facets {
-            None => Surface::Plastic { albedo, coat: Coat::new(eta, nonlinear) },
-            Some(facets) => Surface::RoughPlastic { albedo, coat: RoughCoat::new(eta, facets, nonlinear) },
+            None => Surface::Plastic { albedo, coat: Coat::new(eta, nonlinear), gloss: Rgb::WHITE },
+            Some(facets) => {
+                let coat = RoughCoat::new(eta, facets, nonlinear);
+                Surface::RoughPlastic { albedo, coat, gloss: Rgb::WHITE }
+            }
         })
     }
 
@@ -294,15 +179,30 @@ impl Material {
             name: String::new(),
             surface,
             color: None,
-            metallic_roughness: None,
+            gloss: None,
+            metallic: None,
+            roughness: None,
             blend: None,
             normal: None,
+            bump: None,
             emission: None,
             alpha: Alpha::Opaque,
             one_sided: false,
             back: None,
             opacity: 1.0,
+            cover: None,
         }
+    }
+}
+
+impl Material {
+    /// Every texture that it looks up.
+    pub fn textures(&self) -> impl Iterator<Item = TextureId> {
+        let channels = [self.metallic, self.roughness.as_ref().map(|r| r.channel)];
+        let maps = [self.normal.map(|map| map.texture), self.bump.map(|map| map.texture)];
+        let plain = [self.color, self.gloss, self.blend, self.cover];
+        let channels = channels.into_iter().flatten().map(|c| c.texture);
+        plain.into_iter().chain(maps).flatten().chain(channels)
     }
 }
 

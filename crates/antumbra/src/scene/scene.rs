@@ -259,7 +259,9 @@ impl Scene {
         let color = mesh.color_at(local, uv).map_or(1.0, |c| c[3]);
         let texture = material.color.map(|t| &self.textures[t as usize]);
         let texel = texture.map_or(1.0, |t| t.at(mesh.uv_at(t.uv_set, local, uv))[3]);
-        material.opacity * color * texel
+        let cover = material.cover.map(|t| &self.textures[t as usize]);
+        let cover = cover.map_or(1.0, |t| t.at(mesh.uv_at(t.uv_set, local, uv))[0]);
+        material.opacity * color * texel * cover
     }
 }
 

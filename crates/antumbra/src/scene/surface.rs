@@ -56,9 +56,10 @@ impl Scene {
         let toward = if front { place.outward } else { -place.outward };
         let (start, first) = place.start(toward, prim, look.start);
         let wo = -d.normalize();
-        let normal = material.normal.filter(|_| look.clay.is_none());
+        let (normal, bump) =
+            if look.clay.is_none() { (material.normal, material.bump) } else { (None, None) };
         let ng = toward.as_vec3();
-        let frame = self.shading_frame(object, local, uv, &Seen { ng, front, wo, normal });
+        let frame = self.shading_frame(object, local, uv, &Seen { ng, front, wo, normal, bump });
         let bsdf = self.bsdf(material, (object, local, uv), front, look);
         let beyond = match bsdf.index_below() {
             None => start,

@@ -81,6 +81,13 @@ impl Image {
         }
     }
 
+    /// The least and the largest of one component (0 to 3) over all texels.
+    pub fn range(&self, component: u8) -> (f32, f32) {
+        let texels = (0..self.height).flat_map(|y| (0..self.width).map(move |x| self.texel(x, y)));
+        let numbers = texels.map(|texel| texel[usize::from(component & 3)]);
+        numbers.fold((f32::INFINITY, f32::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)))
+    }
+
     /// Mean linear colour.
     pub fn mean(&self) -> Rgb {
         let mut sum = [0f64; 3];
@@ -109,31 +116,52 @@ impl Texture {
 
     /// Linear colour and alpha at (u, v); v = 0 is the top row.
     pub fn at(&self, uv: [f32; 2]) -> [f32; 4] {
-        let m = &self.map;
-        let u = m[0] * uv[0] + m[1] * uv[1] + m[2];
-        let v = m[3] * uv[0] + m[4] * uv[1] + m[5];
-        let (w, h) = (self.image.width, self.image.height);
-        // Beyond 2³¹ texels f32 holds no place between texels any more.
-        if !((u * w as f32).abs() < 2e9 && (v * h as f32).abs() < 2e9) {
-            return self.image.texel(0, 0);
-        }
+        let Some([x, y]) = self.place(uv) else { return self.image.texel(0, 0) };
         if self.nearest {
-            let x = wrap(real::floorf(u * w as f32) as i64, w, self.wrap[0]);
-            let y = wrap(real::floorf(v * h as f32) as i64, h, self.wrap[1]);
-            return self.image.texel(x, y);
+            let column = wrap(real::floorf(x) as i64, self.image.width, self.wrap[0]);
+            let row = wrap(real::floorf(y) as i64, self.image.height, self.wrap[1]);
+            return self.image.texel(column, row);
         }
-        let (x, y) = (u * w as f32 - 0.5, v * h as f32 - 0.5);
-        let (x0, y0) = (real::floorf(x), real::floorf(y));
-        let (fx, fy) = (x - x0, y - y0);
-        let column = |i: i64| wrap(x0 as i64 + i, w, self.wrap[0]);
-        let row = |j: i64| wrap(y0 as i64 + j, h, self.wrap[1]);
-        let (t00, t10) = (self.image.texel(column(0), row(0)), self.image.texel(column(1), row(0)));
-        let (t01, t11) = (self.image.texel(column(0), row(1)), self.image.texel(column(1), row(1)));
+        let ([[t00, t10], [t01, t11]], [fx, fy]) = self.around([x, y]);
         std::array::from_fn(|c| {
             let top = t00[c] * (1.0 - fx) + t10[c] * fx;
             let bottom = t01[c] * (1.0 - fx) + t11[c] * fx;
             top * (1.0 - fy) + bottom * fy
         })
+    }
+
+    /// ∂/∂u and ∂/∂v of the bilinear red at (u, v), of the mesh's coordinates.
+    pub fn slope(&self, uv: [f32; 2]) -> [f32; 2] {
+        let Some(place) = self.place(uv) else { return [0.0; 2] };
+        let ([[t00, t10], [t01, t11]], [fx, fy]) = self.around(place);
+        let along_x = (t10[0] - t00[0]) * (1.0 - fy) + (t11[0] - t01[0]) * fy;
+        let along_y = (t01[0] - t00[0]) * (1.0 - fx) + (t11[0] - t10[0]) * fx;
+        let (x, y) = (along_x * self.image.width as f32, along_y * self.image.height as f32);
+        let m = &self.map;
+        [m[0] * x + m[3] * y, m[1] * x + m[4] * y]
+    }
+
+    /// Where (u, v) lies in texels from the upper left corner; `None` where f32 holds no place between texels any more.
+    #[inline]
+    fn place(&self, uv: [f32; 2]) -> Option<[f32; 2]> {
+        let m = &self.map;
+        let u = m[0] * uv[0] + m[1] * uv[1] + m[2];
+        let v = m[3] * uv[0] + m[4] * uv[1] + m[5];
+        let (x, y) = (u * self.image.width as f32, v * self.image.height as f32);
+        // Beyond 2³¹ texels.
+        (x.abs() < 2e9 && y.abs() < 2e9).then_some([x, y])
+    }
+
+    /// The two rows of two texels about a place, and how far it lies between them.
+    #[inline]
+    fn around(&self, [x, y]: [f32; 2]) -> ([[[f32; 4]; 2]; 2], [f32; 2]) {
+        let (w, h) = (self.image.width, self.image.height);
+        let (x, y) = (x - 0.5, y - 0.5);
+        let (x0, y0) = (real::floorf(x), real::floorf(y));
+        let column = |i: i64| wrap(x0 as i64 + i, w, self.wrap[0]);
+        let row = |j: i64| wrap(y0 as i64 + j, h, self.wrap[1]);
+        let texels = [0, 1].map(|j| [0, 1].map(|i| self.image.texel(column(i), row(j))));
+        (texels, [x - x0, y - y0])
     }
 }
 

@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use antumbra::light::{
-    Directional, Disk, Environment, Light, LightPoints, Point, Rectangle, Sphere, Spot, Sun, Triangle,
+    Directional, Disk, Environment, Light, LightPoints, Point, Rectangle, Sphere, Spot, SpotEdge, Sun,
+    Triangle,
 };
 use antumbra::math::{Rgb, World, closed, real};
 use antumbra::receiver::Receiver;
@@ -164,4 +165,19 @@ fn one_texel() {
     let turned = Light::from(patch.rotated(0.5 * real::PI));
     let (e, se) = sampled(&turned, &receiver([0.0; 3], [0.0, 0.0, -1.0]), 71);
     assert!((e - 0.004298760172).abs() < 5.0 * se + 1e-5 * e, "{e} ± {se}");
+}
+
+/// Mitsuba's spot: I (outer − a)/(outer − inner) between its angles, over r² = 4.
+#[test]
+fn a_linear_edge_is_linear_in_the_angle() {
+    let [inner, outer] = [10.0f32, 40.0].map(f32::to_radians);
+    let spot = Spot::new(World::ZERO, World::Z, Rgb::WHITE, inner, outer, None);
+    let light = Light::from(Spot { edge: SpotEdge::Linear, ..spot });
+    for (degrees, share) in [(0.0f32, 1.0), (9.0, 1.0), (17.5, 0.75), (25.0, 0.5), (38.5, 0.05), (41.0, 0.0)]
+    {
+        let toward = World::new(real::sinf(degrees.to_radians()), 0.0, real::cosf(degrees.to_radians()));
+        let e = light.irradiance(&receiver((toward * 2.0).to_array(), (-toward).to_array()));
+        // An angle from its cosine: ε/sin a, over 30°.
+        assert!((4.0 * e - share).abs() < 1e-5, "{degrees}: {e}");
+    }
 }

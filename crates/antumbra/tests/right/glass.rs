@@ -23,7 +23,7 @@ fn clear_glass_under_an_even_sky_cannot_be_seen() {
     let glass = builder.material(Material::dielectric(1.5, None));
     let diamond = builder.material(Material::dielectric(2.4, None));
     let air = builder.material(Material::dielectric(1.0 / 1.5, None));
-    let pane = builder.material(Material::thin_dielectric(1.5));
+    let pane = builder.material(Material::thin_dielectric(1.5, None));
     let ball = |x: f32, radius| Shape::Sphere { center: [x, 0.0, 0.0], radius };
     builder.shape("ball", ball(0.0, 1.0), glass);
     builder.shape("bubble", ball(0.2, 0.5), air);

@@ -29,6 +29,7 @@ mod sky;
 mod switches;
 mod table;
 mod teaching;
+mod textured;
 mod variance;
 mod visibility;
 mod visits;

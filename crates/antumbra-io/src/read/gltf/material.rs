@@ -4,7 +4,9 @@
 use std::collections::HashMap;
 
 use antumbra::bsdf::Facets;
-use antumbra::scene::{Alpha, Emission, Material, MaterialId, NormalMap, Surface, TextureId};
+use antumbra::scene::{
+    Alpha, Channel, Emission, Material, MaterialId, NormalMap, Roughness, Surface, TextureId,
+};
 use antumbra_math::Rgb;
 use serde::Deserialize;
 
@@ -101,6 +103,8 @@ impl Reader<'_> {
         let base = Rgb::new(r, g, b);
         let color = pbr.base_color_texture.as_ref().and_then(|t| self.texture(t, true));
         let mr = pbr.metallic_roughness_texture.as_ref().and_then(|t| self.texture(t, false));
+        let channel = |component| mr.map(|texture| Channel { texture, component });
+        let roughness = channel(1).map(|channel| Roughness::new(channel, true));
         let ior = index_of_refraction(m);
         let surface = Surface::MetallicRoughness {
             base,
@@ -113,15 +117,17 @@ impl Reader<'_> {
             surface,
             color,
             normal,
-            metallic_roughness: mr,
+            metallic: channel(2),
+            roughness: roughness.clone(),
             opacity: a,
             ..Material::diffuse(base)
         };
         let Some((share, through)) = self.through(m, place) else { return opaque };
         let glass = Material {
-            surface: self.glass(m, ior, place),
+            surface: self.glass(m, ior),
             color,
             normal,
+            roughness,
             opacity: a,
             ..Material::diffuse(base)
         };
@@ -164,7 +170,7 @@ impl Reader<'_> {
     }
 
     /// The glass of KHR_materials_transmission: a body if it has a volume, else a pane.
-    fn glass(&mut self, m: &GltfMaterial, ior: f32, place: &str) -> Surface {
+    fn glass(&self, m: &GltfMaterial, ior: f32) -> Surface {
         let pbr = &m.pbr_metallic_roughness;
         let volume = m.extensions.get("KHR_materials_volume");
         let thickness = volume.and_then(|v| v.get("thicknessFactor")?.as_f64()).unwrap_or(0.0);
@@ -174,10 +180,7 @@ impl Reader<'_> {
         let mut surface = if thickness > 0.0 {
             Material::dielectric(ior, facets).surface
         } else {
-            if facets.is_some() {
-                self.said.note(place, "is a rough pane of glass: drawn clear");
-            }
-            Material::thin_dielectric(ior).surface
+            Material::thin_dielectric(ior, facets).surface
         };
         surface.tint(Rgb::new(r, g, b));
         surface

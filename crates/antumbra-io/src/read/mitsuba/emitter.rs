@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use antumbra::light::{Directional, Environment, Point, Spot};
+use antumbra::light::{Directional, Environment, Point, Spot, SpotEdge};
 use antumbra::texture::{Image, Texels};
 use antumbra_math::{DVec3, Frame, Rgb, Transform};
 
@@ -88,14 +88,10 @@ fn spot<'a>(reader: &mut Reader<'a>, element: &'a Element, world: &Transform) ->
     let Some(forward) = world.vector(DVec3::Z).try_normalize() else {
         return Err(element.at.error("the transform of a spot is singular"));
     };
-    if beam < cutoff {
-        let what = "the edge of a spot falls off as in glTF, not linearly in the angle";
-        reader.said.note(element.at.words(), what);
-    }
     let position = world.translation.as_vec3();
     let (inner, outer) = (beam.to_radians() as f32, cutoff.to_radians() as f32);
     let spot = Spot::new(position, forward.as_vec3(), intensity, inner, outer, None);
-    reader.scene.light(name(element), spot);
+    reader.scene.light(name(element), Spot { edge: SpotEdge::Linear, ..spot });
     Ok(())
 }
 

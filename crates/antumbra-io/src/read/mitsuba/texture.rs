@@ -26,6 +26,8 @@ pub(super) enum Paint {
 #[derive(Default)]
 pub(super) struct Known {
     textures: HashMap<*const Element, Option<TextureId>>,
+    /// The grey one of each texture that stands for a number.
+    greys: HashMap<TextureId, TextureId>,
     /// By name and whether the colours are sRGB; `None` for those that cannot be read.
     images: HashMap<(String, bool), Option<Arc<Image>>>,
 }
@@ -75,6 +77,54 @@ impl<'a> Reader<'a> {
         match element.property(name).map(|p| p.tag.as_str()) {
             Some("texture" | "ref") => Ok(f64::from(self.color(element, name, default as f32)?.mean())),
             _ => element.float(name, default),
+        }
+    }
+
+    /// The number of the property `name`, or the texture whose red says it: a texture counts by its luminance, as in Mitsuba.
+    pub(super) fn measured(
+        &mut self,
+        element: &'a Element,
+        name: &str,
+        default: f64,
+    ) -> Result<(f32, Option<TextureId>), ReadError> {
+        let textured = matches!(element.property(name).map(|p| p.tag.as_str()), Some("texture" | "ref"));
+        if !textured {
+            return Ok((element.float(name, default)? as f32, None));
+        }
+        Ok(match self.paint(element, name, default as f32)? {
+            Paint::Plain(color) => (number(color), None),
+            Paint::Texture(id) => (1.0, Some(self.luminance(id))),
+        })
+    }
+
+    /// A texture whose red is the luminance of another: what Mitsuba takes for a number.
+    pub(super) fn luminance(&mut self, of: TextureId) -> TextureId {
+        if let Some(known) = self.textures.greys.get(&of) {
+            return *known;
+        }
+        let grey = self.grey(of);
+        self.textures.greys.insert(of, grey);
+        grey
+    }
+
+    fn grey(&mut self, of: TextureId) -> TextureId {
+        let texture = self.scene.textures[of as usize].clone();
+        let image = &texture.image;
+        let (width, height) = (image.width, image.height);
+        let texels = || (0..height).flat_map(|y| (0..width).map(move |x| image.texel(x, y)));
+        let greys = || texels().map(|[r, g, b, _]| number(Rgb([r, g, b])));
+        if greys().zip(texels()).all(|(grey, texel)| grey == texel[0]) {
+            return of;
+        }
+        if self.context.textures.take(u64::from(width) * u64::from(height), 12).is_err() {
+            let what =
+                "the pictures of the scene are too large together: the red of a number's texture counts";
+            self.said.warn("", what);
+            return of;
+        }
+        match Image::new(width, height, Texels::Float(greys().map(|grey| [grey; 3]).collect())) {
+            Some(image) => self.scene.texture(Texture { image: Arc::new(image), ..texture }),
+            None => of,
         }
     }
 
@@ -137,9 +187,23 @@ impl<'a> Reader<'a> {
                 room.map_err(|_| "the pictures of the scene are too large together".to_string())?;
                 Ok(image)
             }
-            _ => texels::decode(bytes, srgb, self.context),
+            _ => Ok(opaque(texels::decode(bytes, srgb, self.context)?)),
         }
     }
+}
+
+/// A picture without its alpha, which no property of Mitsuba's reads.
+fn opaque(image: Image) -> Image {
+    let mut image = image;
+    if let Texels::Srgb8(texels) | Texels::Linear8(texels) = &mut image.texels {
+        texels.iter_mut().for_each(|texel| texel[3] = 255);
+    }
+    image
+}
+
+/// A colour as one number: its luminance; a grey stays what it is, to the last bit.
+pub(super) fn number(Rgb([r, g, b]): Rgb) -> f32 {
+    if r == g && g == b { r } else { Rgb([r, g, b]).luminance() }
 }
 
 /// `bitmap`: a picture; v = 0 is its top row.

@@ -1,15 +1,12 @@
 //! blendbsdf, and what wraps a blend.
 
 use std::collections::HashMap;
-use std::sync::Arc;
 
-use antumbra::scene::{Alpha, Material, MaterialId, Surface, TextureId};
-use antumbra::texture::{Image, Texels, Texture};
-use antumbra_math::Rgb;
+use antumbra::scene::{Alpha, Material, MaterialId, Surface};
 
 use super::super::Reader;
 use super::super::document::Element;
-use super::super::texture::Paint;
+use super::super::texture::{Paint, number};
 use crate::error::ReadError;
 
 /// (1 − weight) of the first bsdf, weight of the second.
@@ -30,7 +27,7 @@ pub(super) fn blendbsdf<'a>(reader: &mut Reader<'a>, element: &'a Element) -> Re
             Ok(match weight {
                 Paint::Plain(weight) => Material::blend(first, second, number(weight)),
                 Paint::Texture(weight) => {
-                    let blend = Some(luminance(reader, weight));
+                    let blend = Some(reader.luminance(weight));
                     Material { blend, ..Material::blend(first, second, 1.0) }
                 }
             })
@@ -53,34 +50,8 @@ fn covering(first: MaterialId, second: MaterialId, weight: f32, [a, b]: [f32; 2]
 fn opacity(material: &Material) -> Option<f32> {
     match material.alpha {
         Alpha::Opaque => Some(1.0),
-        _ => material.color.is_none().then_some(material.opacity),
+        _ => material.cover.is_none().then_some(material.opacity),
     }
-}
-
-/// A texture whose red is the luminance of another: what Mitsuba takes for a number.
-fn luminance(reader: &mut Reader, of: TextureId) -> TextureId {
-    let texture = reader.scene.textures[of as usize].clone();
-    let image = &texture.image;
-    let (width, height) = (image.width, image.height);
-    let texels = || (0..height).flat_map(|y| (0..width).map(move |x| image.texel(x, y)));
-    let greys = || texels().map(|[r, g, b, _]| number(Rgb([r, g, b])));
-    if greys().zip(texels()).all(|(grey, texel)| grey == texel[0]) {
-        return of;
-    }
-    if reader.context.textures.take(u64::from(width) * u64::from(height), 12).is_err() {
-        let what = "the pictures of the scene are too large together: the red of a weight counts";
-        reader.said.warn("", what);
-        return of;
-    }
-    match Image::new(width, height, Texels::Float(greys().map(|grey| [grey; 3]).collect())) {
-        Some(image) => reader.scene.texture(Texture { image: Arc::new(image), ..texture }),
-        None => of,
-    }
-}
-
-/// A colour as one number: its luminance; a grey stays what it is, to the last bit.
-fn number(Rgb([r, g, b]): Rgb) -> f32 {
-    if r == g && g == b { r } else { Rgb([r, g, b]).luminance() }
 }
 
 impl Reader<'_> {

@@ -1,11 +1,9 @@
 //! dielectric, roughdielectric, thindielectric; indices of refraction by name.
 
 use antumbra::scene::Material;
-use antumbra_math::Rgb;
 
 use super::super::Reader;
 use super::super::document::Element;
-use super::reflect;
 use crate::error::ReadError;
 use crate::read::text::show;
 
@@ -74,8 +72,9 @@ pub(super) fn roughdielectric<'a>(
     reader: &mut Reader<'a>,
     element: &'a Element,
 ) -> Result<Material, ReadError> {
-    let facets = reader.facets(element)?;
-    colored(reader, element, Material::dielectric(relative(element, GLASS)?, Some(facets)))
+    let (facets, roughness) = reader.facets(element)?;
+    let glass = Material::dielectric(relative(element, GLASS)?, Some(facets));
+    colored(reader, element, Material { roughness, ..glass })
 }
 
 /// A pane.
@@ -83,7 +82,7 @@ pub(super) fn thindielectric<'a>(
     reader: &mut Reader<'a>,
     element: &'a Element,
 ) -> Result<Material, ReadError> {
-    colored(reader, element, Material::thin_dielectric(relative(element, GLASS)?))
+    colored(reader, element, Material::thin_dielectric(relative(element, GLASS)?, None))
 }
 
 /// With its factors of what is reflected and what is let through.
@@ -92,8 +91,6 @@ fn colored<'a>(
     element: &'a Element,
     glass: Material,
 ) -> Result<Material, ReadError> {
-    let reflected: Rgb = reader.color(element, "specular_reflectance", 1.0)?;
-    let mut glass = reader.painted(glass, element, "specular_transmittance", 1.0)?;
-    reflect(&mut glass.surface, reflected);
-    Ok(glass)
+    let glass = reader.glossy(glass, element)?;
+    reader.painted(glass, element, "specular_transmittance", 1.0)
 }

@@ -24,11 +24,11 @@ pub(super) fn roughconductor<'a>(
     reader: &mut Reader<'a>,
     element: &'a Element,
 ) -> Result<Material, ReadError> {
-    let facets = reader.facets(element)?;
+    let (facets, roughness) = reader.facets(element)?;
     // A metal that reflects all light: η = 0 has no direction of its own.
     let perfect = Metal { eta: Rgb::grey(1e-6), k: Rgb::WHITE };
     let metal = metal(reader, element)?.unwrap_or(perfect);
-    let material = Material::conductor(metal, Some(facets));
+    let material = Material { roughness, ..Material::conductor(metal, Some(facets)) };
     Ok(one_sided(reader.painted(material, element, "specular_reflectance", 1.0)?))
 }
 

@@ -10,7 +10,7 @@ mod wrap;
 use std::collections::HashMap;
 
 use antumbra::bsdf::Facets;
-use antumbra::scene::{Material, MaterialId, Surface};
+use antumbra::scene::{Channel, Material, MaterialId, Roughness, TextureId};
 use antumbra_math::Rgb;
 
 use super::Reader;
@@ -106,33 +106,41 @@ impl<'a> Reader<'a> {
         Ok(material)
     }
 
-    /// Facets of the width α, or of two: Beckmann's unless the file says otherwise.
-    fn facets(&mut self, element: &'a Element) -> Result<Facets, ReadError> {
+    /// Facets of the width α, or of two, Beckmann's unless the file says otherwise; and the texture of α, if one says it.
+    fn facets(&mut self, element: &'a Element) -> Result<(Facets, Option<Roughness>), ReadError> {
         let ggx = element.choice("distribution", &["beckmann", "ggx"])? == "ggx";
         element.property("sample_visible");
-        let both = self.scalar(element, "alpha", 0.1)?;
-        let (u, v) = (self.scalar(element, "alpha_u", both)?, self.scalar(element, "alpha_v", both)?);
-        let (u, v) = (u as f32, v as f32);
-        Ok(if ggx { Facets::new(u, v) } else { Facets::beckmann(u, v) })
-    }
-
-    /// A factor that Mitsuba lets people put on highlights; antumbra's plastic has none.
-    fn plain_highlights(&mut self, element: &'a Element) -> Result<(), ReadError> {
-        if self.color(element, "specular_reflectance", 1.0)? != Rgb::WHITE {
-            let what = format!("\"specular_reflectance\" of {} is not read: drawn as 1", element.words());
-            self.said.warn(element.at.words(), what);
+        let (both, mut texture) = self.measured(element, "alpha", 0.1)?;
+        let (mut u, mut v) = (both, both);
+        if element.has("alpha_u") || element.has("alpha_v") {
+            (u, texture) = self.measured(element, "alpha_u", both.into())?;
+            let across;
+            (v, across) = self.measured(element, "alpha_v", both.into())?;
+            if texture != across {
+                let what = format!("a texture on one width of {}: it counts by its mean", element.words());
+                self.said.warn(element.at.words(), what);
+                let mean = |width: f32, id: Option<TextureId>| match id {
+                    Some(id) => self.scene.textures[id as usize].image.mean().0[0],
+                    None => width,
+                };
+                (u, v, texture) = (mean(u, texture), mean(v, across), None);
+            }
         }
-        Ok(())
+        let facets = if ggx { Facets::new(u, v) } else { Facets::beckmann(u, v) };
+        let channel = texture.map(|texture| Channel { texture, component: 0 });
+        Ok((facets, channel.map(|channel| Roughness::new(channel, false))))
     }
-}
 
-/// The factor of what a glass reflects.
-fn reflect(surface: &mut Surface, factor: Rgb) {
-    match surface {
-        Surface::Dielectric(d) => d.reflectance = factor,
-        Surface::ThinDielectric(d) => d.reflectance = factor,
-        Surface::RoughDielectric(d) => d.reflectance = factor,
-        _ => {}
+    /// `material` with the factor of what it reflects beside its colour, `specular_reflectance`.
+    fn glossy(&mut self, material: Material, element: &'a Element) -> Result<Material, ReadError> {
+        let mut material = material;
+        match self.paint(element, "specular_reflectance", 1.0)? {
+            Paint::Plain(factor) => {
+                material.surface.set_gloss(factor);
+            }
+            Paint::Texture(texture) => material.gloss = Some(texture),
+        }
+        Ok(material)
     }
 }
 

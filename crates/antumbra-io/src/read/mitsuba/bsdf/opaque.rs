@@ -1,7 +1,7 @@
 //! diffuse, principled, null.
 
 use antumbra::bsdf::Facets;
-use antumbra::scene::{Alpha, Material, Surface};
+use antumbra::scene::{Alpha, Channel, Material, Roughness, Surface};
 use antumbra_math::Rgb;
 
 use super::super::Reader;
@@ -22,8 +22,10 @@ pub(super) fn null<'a>(_: &mut Reader<'a>, _: &'a Element) -> Result<Material, R
 
 /// The base of Disney's material as metallic-roughness, or as glass where it lets most light through.
 pub(super) fn principled<'a>(reader: &mut Reader<'a>, element: &'a Element) -> Result<Material, ReadError> {
-    let metallic = reader.scalar(element, "metallic", 0.0)? as f32;
-    let roughness = reader.scalar(element, "roughness", 0.5)? as f32;
+    let (metallic, metal) = reader.measured(element, "metallic", 0.0)?;
+    let (roughness, rough) = reader.measured(element, "roughness", 0.5)?;
+    let channel = |texture| Channel { texture, component: 0 };
+    let rough = rough.map(|texture| Roughness::new(channel(texture), true));
     let through = reader.scalar(element, "spec_trans", 0.0)?;
     let specular = reader.scalar(element, "specular", 0.5)? as f32;
     let eta = element.number("eta")?.map(|eta| eta as f32);
@@ -34,12 +36,13 @@ pub(super) fn principled<'a>(reader: &mut Reader<'a>, element: &'a Element) -> R
         }
     }
     element.property("clearcoat_gloss");
-    if through > 0.5 && metallic < 0.5 {
+    if through > 0.5 && metallic < 0.5 && metal.is_none() {
         let alpha = roughness * roughness;
         // Mitsuba's specular is that of an interface: η = 2/(1 − √(0.08 specular)) − 1.
         let eta = eta.unwrap_or_else(|| 2.0 / (1.0 - (0.08 * specular.clamp(0.0, 1.0)).sqrt()) - 1.0);
         let facets = (alpha > 1e-3).then(|| Facets::isotropic(alpha));
-        return reader.painted(Material::dielectric(eta, facets), element, "base_color", 0.5);
+        let glass = Material { roughness: rough, ..Material::dielectric(eta, facets) };
+        return reader.painted(glass, element, "base_color", 0.5);
     }
     if through > 0.0 {
         let what = format!("\"spec_trans\" of {} is left out: drawn opaque", element.words());
@@ -50,6 +53,7 @@ pub(super) fn principled<'a>(reader: &mut Reader<'a>, element: &'a Element) -> R
         None => 0.08 * specular,
     };
     let surface = Surface::MetallicRoughness { base: Rgb::WHITE, metallic, roughness, f0 };
-    let material = Material { surface, ..Material::diffuse(Rgb::BLACK) };
+    let metallic = metal.map(channel);
+    let material = Material { surface, metallic, roughness: rough, ..Material::diffuse(Rgb::BLACK) };
     Ok(one_sided(reader.painted(material, element, "base_color", 0.5)?))
 }

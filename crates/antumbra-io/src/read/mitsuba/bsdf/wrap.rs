@@ -1,13 +1,10 @@
 //! What wraps another bsdf: twosided (one look for both sides, or one for each), mask, normalmap, bumpmap.
 
-use std::sync::Arc;
-
-use antumbra::scene::{Alpha, Material, NormalMap, TextureId};
-use antumbra::texture::{Image, Texels, Texture};
+use antumbra::scene::{Alpha, BumpMap, Material, NormalMap};
 
 use super::super::Reader;
 use super::super::document::Element;
-use super::super::texture::Paint;
+use super::super::texture::{Paint, number};
 use crate::error::ReadError;
 
 /// The same look from both sides, or a second one from behind.
@@ -31,40 +28,11 @@ pub(super) fn mask<'a>(reader: &mut Reader<'a>, element: &'a Element) -> Result<
     let material = reader.inner(element)?;
     let material = Material { alpha: Alpha::Blend, ..material };
     match reader.paint(element, "opacity", 0.5)? {
-        Paint::Plain(opacity) => Ok(Material { opacity: opacity.mean(), ..material }),
+        Paint::Plain(opacity) => Ok(Material { opacity: number(opacity), ..material }),
         Paint::Texture(opacity) => {
-            let color = with_alpha(reader, material.color, opacity);
-            Ok(Material { color: Some(color), opacity: 1.0, ..material })
+            Ok(Material { cover: Some(reader.luminance(opacity)), opacity: 1.0, ..material })
         }
     }
-}
-
-/// The colours of one texture with the brightness of another as alpha, on the finer of their grids.
-fn with_alpha(reader: &mut Reader, color: Option<TextureId>, opacity: TextureId) -> TextureId {
-    let textures = &reader.scene.textures;
-    let opacity = textures[opacity as usize].clone();
-    let color = color.map(|id| textures[id as usize].clone());
-    let finer = match &color {
-        Some(c) if c.image.width >= opacity.image.width => c,
-        _ => &opacity,
-    };
-    let (width, height) = (finer.image.width, finer.image.height);
-    // Both are looked up where the finer one has its texels; the coarser one's own wrapping and map are not undone.
-    let plain = |t: &Texture| Texture { map: [1.0, 0.0, 0.0, 0.0, 1.0, 0.0], ..t.clone() };
-    let (c, o) = (color.as_ref().map(plain), plain(&opacity));
-    let mut texels = Vec::with_capacity(width as usize * height as usize);
-    for y in 0..height {
-        for x in 0..width {
-            let uv = [(x as f32 + 0.5) / width as f32, (y as f32 + 0.5) / height as f32];
-            let [r, g, b, _] = c.as_ref().map_or([1.0; 4], |c| c.at(uv));
-            let [or, og, ob, _] = o.at(uv);
-            texels.push([r, g, b, (or + og + ob) / 3.0].map(|t| (t * 255.0 + 0.5) as u8));
-        }
-    }
-    let image = Image::new(width, height, Texels::Linear8(texels));
-    let image = image.map_or_else(|| Arc::clone(&opacity.image), Arc::new);
-    let base = Texture { image, ..finer.clone() };
-    reader.scene.texture(base)
 }
 
 /// Bends the shading normal by a picture of normals.
@@ -81,12 +49,16 @@ pub(super) fn normalmap<'a>(reader: &mut Reader<'a>, element: &'a Element) -> Re
     }
 }
 
-/// Bumps are left out.
+/// Bends the shading normal by heights.
 pub(super) fn bumpmap<'a>(reader: &mut Reader<'a>, element: &'a Element) -> Result<Material, ReadError> {
     let material = reader.inner(element)?;
-    element.children.iter().for_each(|c| c.used.set(true));
-    let what =
-        format!("{}: heights are not read (a normal map is): drawn without its bumps", element.words());
-    reader.said.warn(element.at.words(), what);
-    Ok(material)
+    let scale = element.float("scale", 1.0)? as f32;
+    let found = reader.plugins(element, "texture")?;
+    let Some(heights) = found.first() else {
+        return Err(element.at.error(format!("{} needs a texture of heights in it", element.words())));
+    };
+    let Some(texture) = reader.texture(heights)? else { return Ok(material) };
+    let texture = reader.luminance(texture);
+    let bump = Some(BumpMap { texture, scale });
+    Ok(reader.each_part(material, &|part| Material { bump, ..part }))
 }

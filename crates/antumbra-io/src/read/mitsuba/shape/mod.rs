@@ -88,8 +88,7 @@ impl<'a> Reader<'a> {
     /// A look is painted with a texture; one of parts may be, where the scene has textures.
     fn is_textured(&self, material: &Material) -> bool {
         let parts = matches!(material.surface, Surface::Blend { .. }) || material.back.is_some();
-        let own = [material.color, material.metallic_roughness].iter().any(Option::is_some);
-        own || material.normal.is_some() || (parts && !self.scene.textures.is_empty())
+        material.textures().next().is_some() || (parts && !self.scene.textures.is_empty())
     }
 
     /// The material of a shape, and its id if shapes may share it.
