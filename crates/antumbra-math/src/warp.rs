@@ -8,12 +8,12 @@ use crate::{Local, Vec2};
 #[inline]
 pub fn disk(u: [f32; 2]) -> Vec2 {
     let (a, b) = (2.0 * u[0] - 1.0, 2.0 * u[1] - 1.0);
-    if a == 0.0 && b == 0.0 {
-        return Vec2::ZERO;
-    }
-    let (r, phi) =
-        if a.abs() > b.abs() { (a, PI / 4.0 * (b / a)) } else { (b, PI / 2.0 - PI / 4.0 * (a / b)) };
-    Vec2::new(r * real::cosf(phi), r * real::sinf(phi))
+    let wide = a.abs() > b.abs();
+    let (r, other) = if wide { (a, b) } else { (b, a) };
+    // φ, or π/2 − φ, whose cosine is the sine.
+    let phi = if r == 0.0 { 0.0 } else { PI / 4.0 * (other / r) };
+    let (along, across) = (r * real::cos_octant(phi), r * real::sin_octant(phi));
+    if wide { Vec2::new(along, across) } else { Vec2::new(across, along) }
 }
 
 /// The numbers that [`disk`] takes to the point (x, y).

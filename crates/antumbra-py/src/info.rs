@@ -150,7 +150,7 @@ fn lights(scene: &Scene) -> Vec<Counted> {
         let ids = emitted(scene, object);
         if !ids.is_empty() {
             let name = match object.emits {
-                Emits::Each(first) => names.names[first as usize].clone(),
+                Emits::Each(first, _) => names.names[first as usize].clone(),
                 _ => object.name.clone(),
             };
             all.push(Counted { name, kind: "area", power: ids.iter().map(of).sum(), sky: None });
@@ -166,11 +166,11 @@ fn sky(light: &Light) -> Option<(f32, Option<[u32; 2]>)> {
     Some((mean, picture.map(|p| [p.image().width, p.image().height])))
 }
 
-/// The lights that the triangles of an object are, one each.
+/// The lights that the triangles of an object are.
 fn emitted(scene: &Scene, object: &antumbra::scene::Placed) -> Vec<usize> {
-    let (Emits::Each(_), Body::Mesh(mesh)) = (object.emits, &object.body) else { return Vec::new() };
-    let n = scene.meshes[*mesh as usize].triangles.indices.len() as u32;
-    (0..n).filter_map(|local| scene.light_of(object, local).map(|id| id as usize)).collect()
+    let (Emits::Each(_, run), Body::Mesh(_)) = (object.emits, &object.body) else { return Vec::new() };
+    let primitives = (0..object.primitives(&scene.meshes)).step_by(run as usize);
+    primitives.filter_map(|local| scene.light_of(object, local).map(|id| id as usize)).collect()
 }
 
 fn light_dict<'py>(py: Python<'py>, light: &Counted) -> PyResult<Bound<'py, PyDict>> {

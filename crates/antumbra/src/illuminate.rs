@@ -2,14 +2,15 @@
 
 use std::ops::Range;
 
-use antumbra_math::{Vec3, hash};
-use antumbra_trace::{Bits, Hits, NO_PRIM, Visibility};
+use antumbra_math::{Rgb, Vec3, hash};
+use antumbra_trace::{Bits, Hits, NO_PRIM, SegmentBuffer, TO_POINT, Visibility};
 
 use crate::estimator::{
-    Area, Carried, Draws, Estimator, Found, FoundLight, Options, Proposals, VisibleFraction,
+    Area, Carried, Draws, Estimator, Found, FoundLight, Options, Proposals, VisibleFraction, plane_of,
 };
 use crate::film::{Film, Planes};
 use crate::light::sampler::Scratch as LightWeights;
+use crate::light::{End, LightId};
 use crate::receiver::Receiver;
 use crate::sampler::{AnySampler, PassPlan};
 use crate::scene::{Look, Ray, Scene};
@@ -86,6 +87,9 @@ pub struct Buffers {
     proposals: Proposals,
     blocked: Bits,
     hits: Hits,
+    glances: SegmentBuffer,
+    /// Which ray looks for which light.
+    glimpsed: Vec<(u32, LightId)>,
     weights: LightWeights,
 }
 
@@ -162,7 +166,12 @@ fn bounce(
             film.add(Planes::BEAUTY, carried.cell, carried.light);
             film.add(carried.plane, carried.cell, carried.light);
         }
-        follow(job, run, film, b, counts);
+        let ends = b.proposals.onward.iter().all(|onward| onward.goes_on.is_none());
+        if ends && job.shadows && job.scene.along().few() && !job.scene.has_masks() {
+            glance(job, run, film, b, counts);
+        } else {
+            follow(job, run, film, b, counts);
+        }
     }
     b.receivers = std::mem::replace(&mut b.next, receivers);
     Some(())
@@ -205,6 +214,46 @@ fn light_planes(job: &Job<'_>, draws: &Draws<'_>, film: &mut Film, b: &mut Buffe
     b.receivers = receivers;
 }
 
+/// Rays that only look for light ask for nothing but the lights that lie along them, as segments do: the first thing in
+/// the way ends them, and need not be known.
+fn glance(job: &Job<'_>, receivers: &[Receiver], film: &mut Film, b: &mut Buffers, counts: &mut Counts) {
+    let (lights, rays) = (job.scene.lights(), b.proposals.rays.as_segments());
+    b.glances.clear();
+    b.glimpsed.clear();
+    for (i, onward) in b.proposals.onward.iter().enumerate() {
+        let (from, wi) = (&receivers[onward.from as usize], Vec3::from(rays.end_at(i)));
+        for (light, end, prim) in job.scene.along().lights(lights, (from.p, from.prim), wi) {
+            let (end, reach) = match end {
+                End::Infinity => (wi, f32::INFINITY),
+                End::Point(q) => (q, TO_POINT),
+            };
+            b.glances.push(rays.origin_at(i), end.to_array(), reach, from.prim, prim, rays.number[i]);
+            b.glimpsed.push((i as u32, light));
+        }
+    }
+    counts.segments += b.glimpsed.len() as u64;
+    job.visibility.occluded(b.glances.as_segments(), &mut b.blocked);
+    for (_, (i, light)) in b.glimpsed.iter().enumerate().filter(|(k, _)| !b.blocked.get(*k)) {
+        let onward = &b.proposals.onward[*i as usize];
+        let (from, wi) = (&receivers[onward.from as usize], Vec3::from(rays.end_at(*i as usize)));
+        if let Some(hit) = lights[*light as usize].hit(from.p, wi) {
+            let found = FoundLight { from, ray: onward, light: *light, wi };
+            find(job, film, &found, hit.radiance, &mut b.weights);
+        }
+    }
+}
+
+/// Adds light that a ray found.
+fn find(job: &Job<'_>, film: &mut Film, found: &FoundLight<'_>, radiance: Rgb, weights: &mut LightWeights) {
+    let weight = match found.ray.found {
+        Found::All => 1.0,
+        Found::Weighed => job.estimator.found_weight(job.scene, found, weights),
+    };
+    let carried = found.ray.throughput * radiance * weight;
+    film.add(Planes::BEAUTY, found.from.cell, carried);
+    film.add(plane_of(found.from), found.from.cell, carried);
+}
+
 /// Follows the rays: adds the light they find, makes receivers of the surfaces where they go on.
 fn follow(job: &Job<'_>, receivers: &[Receiver], film: &mut Film, b: &mut Buffers, counts: &mut Counts) {
     let rays = b.proposals.rays.as_segments();
@@ -215,18 +264,8 @@ fn follow(job: &Job<'_>, receivers: &[Receiver], film: &mut Film, b: &mut Buffer
     for (i, onward) in b.proposals.onward.iter().enumerate() {
         let from = &receivers[onward.from as usize];
         let (o, wi) = (Vec3::from(rays.origin_at(i)), Vec3::from(rays.end_at(i)));
-        let plane = if from.bounce == 0 { Planes::DIRECT } else { Planes::INDIRECT };
         let mut find = |light, radiance| {
-            let weight = match onward.found {
-                Found::All => 1.0,
-                Found::Weighed => {
-                    let found = FoundLight { from, ray: onward, light, wi };
-                    job.estimator.found_weight(job.scene, &found, &mut b.weights)
-                }
-            };
-            let carried = onward.throughput * radiance * weight;
-            film.add(Planes::BEAUTY, from.cell, carried);
-            film.add(plane, from.cell, carried);
+            find(job, film, &FoundLight { from, ray: onward, light, wi }, radiance, &mut b.weights);
         };
         if !job.shadows {
             job.scene.from_everywhere(from.p, wi).for_each(|(light, radiance)| find(light, radiance));

@@ -193,11 +193,11 @@ impl Lights {
     }
 
     /// No light lies along `wi`, blocked or not: a ray that only looks for light need not be traced. Says so where the
-    /// lights are few enough to be asked one by one.
+    /// lights are few enough to be asked.
     #[inline]
     pub fn out_of_reach(&self, scene: &Scene, at: &Receiver, wi: World) -> bool {
-        let lights = scene.lights();
-        lights.len() <= AUTO_ALL && lights.iter().all(|light| light.hit(at.p, wi).is_none())
+        let along = scene.along();
+        along.few() && along.lights(scene.lights(), (at.p, at.prim), wi).next().is_none()
     }
 
     /// The factor by which a wrong estimator differs from the right one.

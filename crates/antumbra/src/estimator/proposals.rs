@@ -109,8 +109,10 @@ pub fn plane_of(at: &Receiver) -> Planes {
     if at.bounce == 0 { Planes::DIRECT } else { Planes::INDIRECT }
 }
 
-/// The number of a ray for stochastic alpha: a function of the receiver's stream and sample alone.
+/// The number of a ray for stochastic alpha: a function of the receiver's stream and sample alone. Told apart, not mixed:
+/// who draws by it hashes it with the primitive.
 #[inline]
 fn number(at: &Receiver, j: u32) -> u32 {
-    antumbra_math::hash::hash3(at.stream ^ j.wrapping_mul(0x9e37_79b9), at.index, at.bounce)
+    let own = at.index.wrapping_mul(0x9e37_79b9) ^ j.wrapping_mul(0xc2b2_ae35);
+    at.stream ^ own ^ (at.bounce + 1).wrapping_mul(0x85eb_ca6b)
 }

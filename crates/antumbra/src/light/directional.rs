@@ -1,7 +1,7 @@
 //! Light from one direction at infinity: E = E₀ cos θ.
 
 use antumbra_math::{Rgb, World, real};
-use antumbra_trace::NO_PRIM;
+use antumbra_trace::{NO_PRIM, PrimId};
 
 use super::flat::amount_fault;
 use super::{End, LightBounds, LightHit, LightKind, LightPoints, LightSample, OutlinePoint};
@@ -44,6 +44,10 @@ impl LightKind for Directional {
     }
 
     fn hit(&self, _from: World, _wi: World) -> Option<LightHit> {
+        None
+    }
+
+    fn end_along(&self, _from: World, _wi: World) -> Option<(End, PrimId)> {
         None
     }
 

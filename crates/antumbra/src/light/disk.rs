@@ -6,7 +6,7 @@ use antumbra_trace::{NO_PRIM, PrimId, Shape};
 use super::far::Far;
 use super::flat::{Front, lies_on};
 use super::square::Square;
-use super::{LightBounds, LightHit, LightKind, LightPoints, LightSample, LightSurface, OutlinePoint};
+use super::{End, LightBounds, LightHit, LightKind, LightPoints, LightSample, LightSurface, OutlinePoint};
 use crate::receiver::Receiver;
 
 /// A disk light.
@@ -115,6 +115,14 @@ impl LightKind for Disk {
         let distance = front.plane_distance(o, d, c)?;
         let inside = (o + d * distance - c).length_squared() <= f64::from(self.radius * self.radius);
         if inside { front.hit(d, distance) } else { None }
+    }
+
+    #[inline]
+    fn end_along(&self, from: World, wi: World) -> Option<(End, PrimId)> {
+        self.hit(from, wi)?;
+        let (o, d, front) = (from.as_dvec3(), wi.as_dvec3(), self.front());
+        let distance = front.plane_distance(o, d, self.center.as_dvec3())?;
+        Some((front.end(o + d * distance, d), self.prim))
     }
 
     fn emitted(&self, _wi: World, front: bool) -> Rgb {

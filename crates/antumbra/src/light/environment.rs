@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use antumbra_math::{Frame, Rgb, World, real, warp};
-use antumbra_trace::NO_PRIM;
+use antumbra_trace::{NO_PRIM, PrimId};
 
 use super::flat::amount_fault;
 use super::lat_long::LatLong;
@@ -129,6 +129,11 @@ impl LightKind for Environment {
     #[inline]
     fn hit(&self, _from: World, wi: World) -> Option<LightHit> {
         Some(LightHit { distance: f32::INFINITY, radiance: self.radiance_from(wi) })
+    }
+
+    #[inline]
+    fn end_along(&self, _from: World, _wi: World) -> Option<(End, PrimId)> {
+        Some((End::Infinity, NO_PRIM))
     }
 
     fn emitted(&self, _wi: World, _front: bool) -> Rgb {

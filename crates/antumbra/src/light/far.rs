@@ -99,7 +99,8 @@ impl Lanes {
         let facing = -dot(to, area);
         let edge_on = facing * facing <= 1e-10 * distance2 * dot(area, area);
         let near = (distance2 < 9.0 * self.reach2[k]) | (height * height <= self.reach2[k]) | edge_on;
-        let signed = facing / distance2 * (height / distance2);
+        let over = 1.0 / distance2;
+        let signed = facing * over * (height * over);
         let lit = if signed > 0.0 { signed } else { -signed * self.back[k] };
         let weight = if height > 0.0 { lit * self.luminance[k] } else { 0.0 };
         if near { f32::NAN } else { weight }

@@ -68,6 +68,12 @@ impl Front {
         self.cos(wi).map(|_| LightHit { distance: distance as f32, radiance: self.radiance })
     }
 
+    /// Where a segment along `wi` ends that meets the light at q.
+    #[inline]
+    pub fn end(&self, q: DVec3, wi: DVec3) -> End {
+        End::Point(lifted(q, self.n * -wi.dot(self.n).signum(), self.extent))
+    }
+
     /// Where along `wi` from p the plane through q lies, if ahead.
     #[inline]
     pub fn plane_distance(&self, p: DVec3, wi: DVec3, q: DVec3) -> Option<f64> {

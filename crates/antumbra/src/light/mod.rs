@@ -3,6 +3,7 @@
 //! Laws of every kind: `sample` agrees with `pdf` (χ²), E[1/pdf] = solid angle of the support, `hit` agrees with
 //! `sample`, `bounds` contain the light. Densities are in solid angle at the receiver, always.
 
+mod along;
 mod directional;
 mod disk;
 mod environment;
@@ -20,6 +21,7 @@ mod steps;
 mod sun;
 mod triangle;
 
+pub use along::Along;
 pub use directional::Directional;
 pub use disk::Disk;
 pub use environment::Environment;
@@ -147,6 +149,9 @@ pub trait LightKind {
     fn pdf(&self, at: &Receiver, wi: World, how: LightPoints) -> f32;
     /// L_e met from the point `from` along the unit vector `wi`; `None` for a miss and for delta lights.
     fn hit(&self, from: World, wi: World) -> Option<LightHit>;
+    /// Where a segment from `from` along the unit vector `wi` ends on the light, as in [`LightSample`], and on which
+    /// primitive; `None` where `hit` is.
+    fn end_along(&self, from: World, wi: World) -> Option<(End, PrimId)>;
     /// L_e leaving a surface of this light that was hit along `wi`, on its front or its back; black for delta lights.
     fn emitted(&self, wi: World, front: bool) -> Rgb;
     /// Unoccluded irradiance at `at` on the side of its geometric normal, luminance [W/m²], exact or estimated; above 0
@@ -202,6 +207,7 @@ macro_rules! kinds {
                 even() () -> LightPoints;
                 pdf(at: &Receiver, wi: World, how: LightPoints) (at, wi, how) -> f32;
                 hit(from: World, wi: World) (from, wi) -> Option<LightHit>;
+                end_along(from: World, wi: World) (from, wi) -> Option<(End, PrimId)>;
                 emitted(wi: World, front: bool) (wi, front) -> Rgb;
                 irradiance(at: &Receiver) (at) -> f32;
                 far() () -> Option<Far>;

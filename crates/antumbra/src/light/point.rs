@@ -1,7 +1,7 @@
 //! A point that shines evenly: E = I cos θ / r².
 
 use antumbra_math::{Rgb, World, real};
-use antumbra_trace::NO_PRIM;
+use antumbra_trace::{NO_PRIM, PrimId};
 
 use super::flat::amount_fault;
 use super::{End, LightBounds, LightHit, LightKind, LightPoints, LightSample, OutlinePoint};
@@ -42,6 +42,10 @@ impl LightKind for Point {
     }
 
     fn hit(&self, _from: World, _wi: World) -> Option<LightHit> {
+        None
+    }
+
+    fn end_along(&self, _from: World, _wi: World) -> Option<(End, PrimId)> {
         None
     }
 

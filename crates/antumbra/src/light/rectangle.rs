@@ -7,7 +7,7 @@ use antumbra_trace::{NO_PRIM, PrimId};
 use super::far::Far;
 use super::flat::{Front, along_edges, largest, lies_on};
 use super::square::Square;
-use super::{LightBounds, LightHit, LightKind, LightPoints, LightSample, LightSurface, OutlinePoint};
+use super::{End, LightBounds, LightHit, LightKind, LightPoints, LightSample, LightSurface, OutlinePoint};
 use crate::receiver::Receiver;
 
 /// A rectangle light.
@@ -219,6 +219,14 @@ impl LightKind for Rectangle {
         let (ab, distance) = self.meet(from.as_dvec3(), wi.as_dvec3())?;
         let inside = ab.iter().all(|x| (0.0..=1.0).contains(x));
         if inside { self.front().hit(wi.as_dvec3(), distance) } else { None }
+    }
+
+    #[inline]
+    fn end_along(&self, from: World, wi: World) -> Option<(End, PrimId)> {
+        self.hit(from, wi)?;
+        let (o, d) = (from.as_dvec3(), wi.as_dvec3());
+        let (ab, distance) = self.meet(o, d)?;
+        Some((self.front().end(o + d * distance, d), self.prim(ab)))
     }
 
     fn emitted(&self, _wi: World, front: bool) -> Rgb {

@@ -36,16 +36,20 @@ impl Sphere {
         Some(Seen { to_center, distance: distance2.sqrt(), radius, versin })
     }
 
+    /// Where a segment to the point c + r n ends.
+    #[inline]
+    fn end(&self, n: DVec3) -> End {
+        let (center, radius) = (self.center.as_dvec3(), f64::from(self.radius));
+        End::Point(lifted(center + n * radius, n, center.abs().max_element() + radius))
+    }
+
     /// The point c + r n as a sample along `wi`.
     #[inline]
     fn arrive(&self, wi: DVec3, distance: f64, n: DVec3, pdf: f64) -> Option<LightSample> {
-        let radius = f64::from(self.radius);
-        let center = self.center.as_dvec3();
-        let extent = center.abs().max_element() + radius;
         let pdf = pdf as f32;
         (pdf > 0.0 && pdf.is_finite()).then(|| LightSample {
             wi: wi.as_vec3(),
-            end: End::Point(lifted(center + n * radius, n, extent)),
+            end: self.end(n),
             distance: distance as f32,
             radiance: self.radiance,
             density: Density::SolidAngle(pdf),
@@ -135,6 +139,13 @@ impl LightKind for Sphere {
         let off2 = (seen.to_center - wi * along).length_squared();
         (along > 0.0 && off2 <= seen.radius * seen.radius)
             .then(|| LightHit { distance: seen.reach(wi) as f32, radiance: self.radiance })
+    }
+
+    #[inline]
+    fn end_along(&self, from: World, wi: World) -> Option<(End, PrimId)> {
+        self.hit(from, wi)?;
+        let (seen, wi) = (self.seen(from)?, wi.as_dvec3());
+        Some((self.end(seen.normal(wi, seen.reach(wi))), self.prim))
     }
 
     fn emitted(&self, _wi: World, front: bool) -> Rgb {

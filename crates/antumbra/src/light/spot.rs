@@ -1,7 +1,7 @@
 //! A point that shines into a cone with a soft edge (glTF `KHR_lights_punctual`, Mitsuba's `spot`).
 
 use antumbra_math::{Rgb, World, real};
-use antumbra_trace::NO_PRIM;
+use antumbra_trace::{NO_PRIM, PrimId};
 
 use super::flat::amount_fault;
 use super::{End, LightBounds, LightHit, LightKind, LightPoints, LightSample, OutlinePoint};
@@ -107,6 +107,10 @@ impl LightKind for Spot {
     }
 
     fn hit(&self, _from: World, _wi: World) -> Option<LightHit> {
+        None
+    }
+
+    fn end_along(&self, _from: World, _wi: World) -> Option<(End, PrimId)> {
         None
     }
 

@@ -1,7 +1,7 @@
 //! A disc of the sky: the sun at its true angular size.
 
 use antumbra_math::{Frame, Rgb, World, closed, real, solid_angle, warp};
-use antumbra_trace::NO_PRIM;
+use antumbra_trace::{NO_PRIM, PrimId};
 
 use super::flat::amount_fault;
 use super::{End, LightBounds, LightHit, LightKind, LightPoints, LightSample, OutlinePoint};
@@ -65,6 +65,11 @@ impl LightKind for Sun {
     #[inline]
     fn hit(&self, _from: World, wi: World) -> Option<LightHit> {
         self.holds(wi).then_some(LightHit { distance: f32::INFINITY, radiance: self.radiance })
+    }
+
+    #[inline]
+    fn end_along(&self, _from: World, wi: World) -> Option<(End, PrimId)> {
+        self.holds(wi).then_some((End::Infinity, NO_PRIM))
     }
 
     fn emitted(&self, _wi: World, _front: bool) -> Rgb {

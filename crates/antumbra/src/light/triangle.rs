@@ -7,7 +7,7 @@ use antumbra_trace::{NO_PRIM, PrimId};
 use super::far::Far;
 use super::flat::{Front, along_edges, largest, lies_on};
 use super::square::Square;
-use super::{LightBounds, LightHit, LightKind, LightPoints, LightSample, LightSurface, OutlinePoint};
+use super::{End, LightBounds, LightHit, LightKind, LightPoints, LightSample, LightSurface, OutlinePoint};
 use crate::receiver::Receiver;
 
 /// A triangle light.
@@ -140,6 +140,14 @@ impl LightKind for Triangle {
         let inside = w.iter().all(|w| *w >= 0.0) || w.iter().all(|w| *w <= 0.0);
         let front = self.front();
         if inside { front.hit(d, front.plane_distance(o, d, a)?) } else { None }
+    }
+
+    #[inline]
+    fn end_along(&self, from: World, wi: World) -> Option<(End, PrimId)> {
+        self.hit(from, wi)?;
+        let (o, d, front) = (from.as_dvec3(), wi.as_dvec3(), self.front());
+        let distance = front.plane_distance(o, d, self.a.as_dvec3())?;
+        Some((front.end(o + d * distance, d), self.first_prim))
     }
 
     fn emitted(&self, _wi: World, front: bool) -> Rgb {

@@ -2,7 +2,7 @@
 
 use antumbra_math::hash::fnv1a;
 
-use super::{Body, Emits, Scene, SceneMesh};
+use super::{Emits, Scene, SceneMesh};
 use crate::texture::{Image, Texels};
 
 impl Scene {
@@ -27,12 +27,9 @@ impl Scene {
     fn lights_hash(&self, all: &mut Sum) {
         let mut of_objects = vec![false; self.light_names.slots.len()];
         for object in self.objects.iter() {
-            if let Emits::Each(first) = object.emits {
-                let count = match &object.body {
-                    Body::Mesh(m) => self.meshes[*m as usize].triangles.indices.len(),
-                    Body::Shape(_) => 1,
-                };
-                of_objects[first as usize..first as usize + count].fill(true);
+            if let Emits::Each(first, run) = object.emits {
+                let count = object.primitives(&self.meshes) / run;
+                of_objects[first as usize..(first + count) as usize].fill(true);
             }
         }
         for (slot, of_object) in self.light_names.slots.iter().zip(of_objects) {

@@ -5,6 +5,7 @@ mod build;
 mod builder;
 pub mod builtin;
 mod camera;
+mod emissive;
 mod fingerprint;
 mod looks;
 mod material;

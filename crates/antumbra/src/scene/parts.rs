@@ -4,11 +4,11 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 use antumbra_math::{DVec3, Rgb, Transform, Vec3};
-use antumbra_trace::{BuildOptions, Geometry, Instance, Pool, Shape, Triangles, World};
+use antumbra_trace::{BuildOptions, Geometry, Instance, Pool, Triangles, World};
 
 use super::scene::{Emits, LightNames, Placed, Scene, SceneMesh};
-use super::{Alpha, Body, Material, Mesh, Object, SceneBuilder, SceneError};
-use crate::light::{self, Light, LightSurface};
+use super::{Alpha, Body, Material, Mesh, Object, SceneBuilder, SceneError, emissive};
+use crate::light::{Along, Light, LightSurface};
 
 /// Copies of a mesh are written out as world triangles up to this many triangles in all; beyond, they are instances.
 const FLATTEN_TRIANGLES: usize = 1 << 18;
@@ -129,14 +129,15 @@ impl Parts {
         self.names.push(name);
     }
 
-    /// Every triangle (or shape) of an emissive object is a light.
+    /// Every triangle (or shape) of an emissive object is a light, or every two triangles that are a rectangle.
     pub(super) fn add_emissive_objects(&mut self, materials: &[Material]) -> Result<(), SceneError> {
         for i in 0..self.objects.len() {
             let object = &self.objects[i];
             let material = &materials[object.material as usize];
             let Some(emission) = material.emission.filter(|e| !e.radiance.is_black()) else { continue };
             let name = if object.name.is_empty() { material.name.clone() } else { object.name.clone() };
-            let lights = emissive_lights(object, &self.meshes, emission.radiance, emission.both_sides);
+            let lights = emissive::lights(object, &self.meshes, emission);
+            let run = object.primitives(&self.meshes) / lights.len().max(1) as u32;
             if self.lights.len() + lights.len() > MOST_LIGHTS {
                 let what = format!("more than {MOST_LIGHTS} emissive triangles in the scene");
                 return Err(SceneError::new(format!("object \"{name}\""), what, "make fewer surfaces emit"));
@@ -144,7 +145,7 @@ impl Parts {
             if lights.is_empty() {
                 continue;
             }
-            self.objects[i].emits = Emits::Each(self.lights.len() as u32);
+            self.objects[i].emits = Emits::Each(self.lights.len() as u32, run);
             let name = self.light_name(&name);
             self.names.extend(std::iter::repeat_n(name, lights.len()));
             self.lights.extend(lights);
@@ -190,8 +191,10 @@ impl Parts {
             suggested: builder.suggested,
             parameters: builder.parameters,
             messages: builder.messages,
+            along: Arc::new(Along::new(&self.lights)),
             lights: Arc::new(self.lights),
             light_names: LightNames { names: self.names, slots },
+            has_masks: world.has_masks(),
             world: Arc::new(world),
             radius,
         })
@@ -203,45 +206,13 @@ impl Parts {
             match object.emits {
                 Emits::Nothing => {}
                 Emits::One(light) => self.lights[light as usize].set_first_prim(object.first_prim),
-                Emits::Each(first) => {
-                    let count = match &object.body {
-                        Body::Mesh(m) => self.meshes[*m as usize].triangles.indices.len() as u32,
-                        Body::Shape(_) => 1,
-                    };
-                    for i in 0..count {
-                        self.lights[(first + i) as usize].set_first_prim(object.first_prim + i);
+                Emits::Each(first, run) => {
+                    for i in (0..object.primitives(&self.meshes)).step_by(run as usize) {
+                        self.lights[(first + i / run) as usize].set_first_prim(object.first_prim + i);
                     }
                 }
             }
         }
-    }
-}
-
-/// One light a triangle, or one for a shape that can emit.
-fn emissive_lights(object: &Placed, meshes: &[SceneMesh], radiance: Rgb, both_sides: bool) -> Vec<Light> {
-    match &object.body {
-        Body::Mesh(m) => {
-            let triangles = &meshes[*m as usize].triangles;
-            let placed = |c: [f32; 3]| match &object.transform {
-                None => Vec3::from(c),
-                Some(t) => t.point(DVec3::from(c.map(f64::from))).as_vec3(),
-            };
-            let mirrors = object.transform.is_some_and(|t| t.mirrors());
-            let light = |i: usize| {
-                let [a, b, c] = triangles.corners(i).map(placed);
-                let (b, c) = if mirrors { (c, b) } else { (b, c) };
-                light::Triangle::new(a, b, c, radiance).both_sides(both_sides).into()
-            };
-            (0..triangles.indices.len()).map(light).collect()
-        }
-        Body::Shape(Shape::Sphere { center, radius }) => {
-            vec![light::Sphere::new(Vec3::from(*center), *radius, radiance).into()]
-        }
-        Body::Shape(Shape::Disk { center, normal, radius }) => {
-            let disk = light::Disk::new(Vec3::from(*center), Vec3::from(*normal), *radius, radiance);
-            vec![disk.both_sides(both_sides).into()]
-        }
-        Body::Shape(Shape::Cylinder { .. }) => Vec::new(),
     }
 }
 

@@ -8,7 +8,7 @@ use antumbra_trace::{
 };
 
 use super::{Alpha, Body, Camera, Material, Message, Tangents};
-use crate::light::{Light, LightId};
+use crate::light::{Along, Light, LightId};
 use crate::texture::Texture;
 
 /// A mesh as the tree and the shading share it.
@@ -35,8 +35,8 @@ pub enum Emits {
     Nothing,
     /// The whole object is this light.
     One(LightId),
-    /// Primitive i is light `first` + i.
-    Each(LightId),
+    /// An emissive object: each run of so many of its primitives is a light, the first one this.
+    Each(LightId, u32),
 }
 
 /// An object in its place; instance i of the world is object i.
@@ -89,9 +89,11 @@ pub struct Scene {
     /// Notes and warnings.
     pub messages: Vec<Message>,
     pub(super) lights: Arc<Vec<Light>>,
+    pub(super) along: Arc<Along>,
     pub(super) light_names: LightNames,
     pub(super) world: Arc<World>,
     pub(super) radius: f32,
+    pub(super) has_masks: bool,
 }
 
 impl Scene {
@@ -99,6 +101,18 @@ impl Scene {
     #[inline]
     pub fn lights(&self) -> &[Light] {
         &self.lights
+    }
+
+    /// Which of them lie along a direction.
+    #[inline]
+    pub fn along(&self) -> &Along {
+        &self.along
+    }
+
+    /// Some surface is alpha-masked.
+    #[inline]
+    pub fn has_masks(&self) -> bool {
+        self.has_masks
     }
 
     /// Name of each light of the scene and whether it shines.
@@ -150,7 +164,7 @@ impl Scene {
         let light = match object.emits {
             Emits::Nothing => return None,
             Emits::One(light) => light,
-            Emits::Each(first) => first + local,
+            Emits::Each(first, run) => first + local / run,
         };
         let slot = self.light_names.slots[light as usize];
         (slot != u32::MAX).then_some(slot)
@@ -210,18 +224,19 @@ impl Scene {
             names.slots.push(kept.len() as u32);
             kept.push(light);
         }
-        Scene { lights: Arc::new(kept), light_names: names, ..self.clone() }
+        let along = Arc::new(Along::new(&kept));
+        Scene { lights: Arc::new(kept), along, light_names: names, ..self.clone() }
     }
 
     /// Which segments are free: alpha masks as the file says, or everything opaque.
     pub fn visibility(&self, opaque: bool) -> SceneVisibility<'_> {
-        SceneVisibility { scene: self, opaque: opaque || !self.world.has_masks() }
+        SceneVisibility { scene: self, opaque: opaque || !self.has_masks }
     }
 
     /// The share of rays that a light's own surface stops at the point `p` of `prim`: what it emits there counts as much.
     /// 1 but for alpha masks.
     pub fn coverage(&self, prim: PrimId, p: Vec3) -> f32 {
-        if prim == NO_PRIM || !self.world.has_masks() {
+        if prim == NO_PRIM || !self.has_masks {
             return 1.0;
         }
         let (object, local) = self.locate(prim);

@@ -110,30 +110,11 @@ impl Chances {
     /// In proportion to what each gives about the normal `n`; no more than a step to each that gives anything is lost.
     #[inline]
     pub fn new(parts: &[Part], n: World) -> Chances {
-        let mut weights = [0.0f32; MOST];
-        let (mut sum, mut lit) = (0.0f64, 0u32);
-        for (weight, part) in weights.iter_mut().zip(parts) {
-            *weight = part.irradiance(n);
-            sum += f64::from(*weight);
-            lit += u32::from(*weight > 0.0);
-        }
-        let mut ends = [0; MOST];
-        if lit == 0 {
-            return Chances { ends, count: 0 };
-        }
-        let scale = f64::from(steps::STEPS - lit) / sum;
-        let (mut run, mut seen) = (0.0, 0);
-        for (end, weight) in ends.iter_mut().zip(&weights[..parts.len()]) {
-            run += f64::from(*weight);
-            seen += u32::from(*weight > 0.0);
-            *end = ((run * scale) as u32 + seen).min(steps::STEPS);
-        }
-        ends[parts.len() - 1] = steps::STEPS;
-        // Roundings of the sum may leave the last steps to a part without light: they go to the last that has some.
-        for k in (0..parts.len() - 1).rev().take_while(|k| weights[k + 1] <= 0.0) {
-            ends[k] = steps::STEPS;
-        }
-        Chances { ends, count: parts.len() }
+        let (mut weights, mut ends) = ([0.0f32; MOST], [0; MOST]);
+        weights.iter_mut().zip(parts).for_each(|(weight, part)| *weight = part.irradiance(n));
+        let count = parts.len();
+        let any = steps::share_out_fast(&weights[..count], &mut ends[..count]);
+        Chances { ends, count: if any { count } else { 0 } }
     }
 
     /// Draws a part.

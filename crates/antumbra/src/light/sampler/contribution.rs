@@ -24,7 +24,8 @@ impl LightSamplerKind for Contribution {
         let mut weights = [0.0; MOST];
         let weights = &mut weights[..lights.len().min(MOST)];
         self.far.weigh(lights, at, weights);
-        steps::share_out(weights.iter().copied(), scratch);
-        Chooser { ends: scratch }
+        scratch.resize(weights.len(), 0);
+        let any = steps::share_out_fast(weights, scratch);
+        Chooser { ends: if any { scratch } else { &[] } }
     }
 }

@@ -78,7 +78,7 @@ impl Scene {
             let name = || self.name_of(i);
             // A mirrored object keeps its front outside.
             let inward = s.volume.is_some_and(|v| v < 0.0);
-            if inward && matches!(object.emits, Emits::Each(_)) {
+            if inward && matches!(object.emits, Emits::Each(..)) {
                 found.inward_lamps.push(name());
             } else if inward && !self.is_room(boxes[i], all) {
                 found.inward.push(name());
