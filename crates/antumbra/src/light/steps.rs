@@ -83,8 +83,24 @@ pub fn share_out_fast(weights: &[f32], ends: &mut [u32]) -> bool {
 /// The weight that `u` in [0, 1) falls on; `None` if there is none.
 #[inline]
 pub fn pick(ends: &[u32], u: f32) -> Option<Choice> {
-    let step = ((u * STEPS as f32) as u32).min(STEPS - 1);
-    let index = find(ends, step);
+    let step = step_of(u);
+    choice(ends, find(ends, step), step)
+}
+
+/// As [`pick`] for a few weights: all are compared at once, which guesses nothing wrong.
+#[inline]
+pub fn pick_few<const N: usize>(ends: &[u32; N], u: f32) -> Option<Choice> {
+    let step = step_of(u);
+    choice(ends, ends.iter().map(|end| u32::from(*end <= step)).sum::<u32>() as usize, step)
+}
+
+#[inline]
+fn step_of(u: f32) -> u32 {
+    ((u * STEPS as f32) as u32).min(STEPS - 1)
+}
+
+#[inline]
+fn choice(ends: &[u32], index: usize, step: u32) -> Option<Choice> {
     let (low, high) = part(ends, index)?;
     let rest = ((step - low) as f32 + 0.5) / (high - low) as f32;
     Some(Choice { index, prob: (high - low) as f32 / STEPS as f32, rest: rest.min(real::ONE_MINUS) })

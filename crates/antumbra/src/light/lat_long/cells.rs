@@ -213,15 +213,19 @@ impl Cells {
         self.rows.iter().chain(&self.columns).copied()
     }
 
-    /// Draws a place and its direction; `light` is the luminance of a texel, as the table was made of.
+    /// Draws a place and its direction; `light` is the luminance at the corners of a cell, as the table was made of.
     #[inline]
-    pub fn sample(&self, u: [f32; 2], light: impl Fn(u32, u32) -> f32) -> Option<(Place, World)> {
+    pub fn sample(
+        &self,
+        u: [f32; 2],
+        light: impl FnOnce([(u32, u32); 4]) -> [f32; 4],
+    ) -> Option<(Place, World)> {
         let w = self.window.width as usize;
         let row = steps::pick(&self.rows, u[1])?;
         let column = steps::pick(&self.columns[row.index * w..(row.index + 1) * w], u[0])?;
         let (i, j) =
             ((self.window.x + column.index as u32) % self.grid.width, self.window.y + row.index as u32);
-        let [a, b, c, d] = self.grid.corners(i, j).map(|(x, y)| light(x, y));
+        let [a, b, c, d] = light(self.grid.corners(i, j));
         let t = ramp(row.rest, a + b, c + d);
         let s = ramp(column.rest, a + (c - a) * t, b + (d - b) * t);
         let [upper, lower] = [self.grid.border(j), self.grid.border(j + 1)];
@@ -233,16 +237,16 @@ impl Cells {
         Some((place, self.grid.direction(place, zeta)))
     }
 
-    /// The density at a place [1/sr].
+    /// The density at a place [1/sr]; `light` is the luminance at the corners of its cell.
     #[inline]
-    pub fn pdf(&self, place: Place, light: impl Fn(u32, u32) -> f32) -> f32 {
+    pub fn pdf(&self, place: Place, light: [f32; 4]) -> f32 {
         let (w, window) = (self.window.width as usize, &self.window);
         let i = (place.column + self.grid.width - window.x) % self.grid.width;
         let j = place.row.wrapping_sub(window.y);
         if self.rows.is_empty() || i >= window.width || j >= window.height {
             return 0.0;
         }
-        let [a, b, c, d] = self.grid.corners(place.column, place.row).map(|(x, y)| light(x, y));
+        let [a, b, c, d] = light;
         let mean = 0.25 * (a + b + c + d);
         if mean <= 0.0 {
             return 0.0;

@@ -15,7 +15,7 @@ use super::flat::amount_fault;
 use crate::texture::Image;
 use cells::{Grid, Place};
 use harmonics::Harmonics;
-use parts::{Chances, Part, Tiles};
+use parts::{Chances, Part, Regards, Tiles};
 use sun::Split;
 
 /// The picture and what was computed from it once.
@@ -28,6 +28,7 @@ pub struct LatLong {
     sun: Option<(Split, f64)>,
     /// The sun first, if there is one, then tiles of the rest.
     parts: Vec<Part>,
+    regards: Regards,
     tiles: Tiles,
     fault: Option<String>,
 }
@@ -73,7 +74,8 @@ impl LatLong {
             harmonics = Harmonics::of(w, h, |x, y| at(&light, x, y));
         }
         let tiles = Tiles::new(&grid, |x, y| at(&light, x, y), &mut parts);
-        LatLong { image, grid, harmonics, sun, parts, tiles, fault }
+        let regards = Regards::of(&parts);
+        LatLong { image, grid, harmonics, sun, parts, regards, tiles, fault }
     }
 
     /// The picture.
@@ -89,38 +91,45 @@ impl LatLong {
     /// Radiance from the unit direction `d`.
     #[inline]
     pub fn radiance(&self, d: World) -> Rgb {
-        self.look_up(self.grid.place(d))
+        let place = self.grid.place(d);
+        between(self.colors(place), place)
     }
 
     /// Draws a direction for a receiver with the normal `n`: a part by about what it gives there, in it in proportion to
     /// its luminance.
     #[inline]
     pub fn sample(&self, u: [f32; 2], n: World) -> Option<Drawn> {
-        let chances = Chances::new(&self.parts, n);
+        let chances = Chances::new(&self.regards, n);
         let choice = chances.pick(u[1])?;
         let (cells, u) = (&self.parts[choice.index].cells, [u[0], choice.rest]);
-        let (place, wi) = match &self.sun {
-            Some((sun, _)) if choice.index == 0 => cells.sample(u, |x, y| sun.of(x, y, self.light(x, y)))?,
-            _ => cells.sample(u, |x, y| self.rest(x, y))?,
-        };
-        let pdf = self.density(place, &chances);
-        Some(Drawn { wi, radiance: self.look_up(place), pdf })
+        let (place, wi) = cells.sample(u, |corners| {
+            let light = corners.map(|(x, y)| self.light(x, y));
+            match &self.sun {
+                Some((sun, _)) if choice.index == 0 => suns(sun, corners, light),
+                _ => self.rest(corners, light),
+            }
+        })?;
+        let colors = self.colors(place);
+        Some(Drawn { wi, radiance: between(colors, place), pdf: self.density(place, colors, &chances) })
     }
 
     /// The density of `sample` in the unit direction `d`.
     #[inline]
     pub fn pdf(&self, d: World, n: World) -> f32 {
-        self.density(self.grid.place(d), &Chances::new(&self.parts, n))
+        let place = self.grid.place(d);
+        self.density(place, self.colors(place), &Chances::new(&self.regards, n))
     }
 
+    /// The density at a place whose cell has these colours at its corners.
     #[inline]
-    fn density(&self, place: Place, chances: &Chances) -> f32 {
+    fn density(&self, place: Place, colors: [Rgb; 4], chances: &Chances) -> f32 {
+        let (corners, light) = (self.grid.corners(place.column, place.row), colors.map(Rgb::luminance));
         let mut sum = 0.0;
         if let Some(part) = self.tiles.part(place.column, place.row) {
-            sum += chances.of(part) * self.parts[part].cells.pdf(place, |x, y| self.rest(x, y));
+            sum += chances.of(part) * self.parts[part].cells.pdf(place, self.rest(corners, light));
         }
         if let (Some((sun, _)), Some(part)) = (&self.sun, self.parts.first()) {
-            sum += chances.of(0) * part.cells.pdf(place, |x, y| sun.of(x, y, self.light(x, y)));
+            sum += chances.of(0) * part.cells.pdf(place, suns(sun, corners, light));
         }
         sum
     }
@@ -142,12 +151,10 @@ impl LatLong {
         self.fault.clone()
     }
 
+    /// Those at the corners of the cell of a place.
     #[inline]
-    fn look_up(&self, place: Place) -> Rgb {
-        let corners = self.grid.corners(place.column, place.row);
-        let [a, b, c, d] = corners.map(|(x, y)| color(&self.image, x, y));
-        let (top, bottom) = (a.lerp(b, place.s), c.lerp(d, place.s));
-        top.lerp(bottom, place.v)
+    fn colors(&self, place: Place) -> [Rgb; 4] {
+        self.grid.corners(place.column, place.row).map(|(x, y)| color(&self.image, x, y))
     }
 
     #[inline]
@@ -155,11 +162,26 @@ impl LatLong {
         luminance(&self.image, x, y)
     }
 
+    /// What of the luminance of four texels is not the sun's.
     #[inline]
-    fn rest(&self, x: u32, y: u32) -> f32 {
-        let light = self.light(x, y);
-        light - self.sun.as_ref().map_or(0.0, |(s, _)| s.of(x, y, light))
+    fn rest(&self, corners: [(u32, u32); 4], light: [f32; 4]) -> [f32; 4] {
+        let Some((sun, _)) = &self.sun else { return light };
+        let suns = suns(sun, corners, light);
+        std::array::from_fn(|k| light[k] - suns[k])
     }
+}
+
+/// What of the luminance of four texels is the sun's.
+#[inline]
+fn suns(sun: &Split, corners: [(u32, u32); 4], light: [f32; 4]) -> [f32; 4] {
+    std::array::from_fn(|k| sun.of(corners[k].0, corners[k].1, light[k]))
+}
+
+/// The colour at a place between those at the corners of its cell.
+#[inline]
+fn between([a, b, c, d]: [Rgb; 4], place: Place) -> Rgb {
+    let (top, bottom) = (a.lerp(b, place.s), c.lerp(d, place.s));
+    top.lerp(bottom, place.v)
 }
 
 #[inline]

@@ -10,7 +10,9 @@ use super::cells::{Cells, Grid, Window};
 const AROUND: u32 = 8;
 const BANDS: u32 = 4;
 /// The most parts: every tile, and a sun.
-pub const MOST: usize = (AROUND * BANDS) as usize + 1;
+const MOST: usize = (AROUND * BANDS) as usize + 1;
+/// The next number that eight divides.
+const LANES: usize = MOST.next_multiple_of(8);
 
 /// A part of the picture that is drawn from by its own table.
 pub struct Part {
@@ -40,18 +42,43 @@ impl Part {
         Some(Part { cells, flux: flux as f32, middle, reach: [cos as f32, sin as f32] })
     }
 
-    /// About its irradiance on the side of the unit normal `n`: halfway between what it would give from its middle and from
-    /// its nearest point, and so above 0 wherever a piece of it is in sight.
-    #[inline]
+    /// See [`Regards::irradiance`].
     pub fn irradiance(&self, n: World) -> f32 {
-        let cos = self.middle.dot(n);
-        let [reach_cos, reach_sin] = self.reach;
-        let nearest = if cos >= reach_cos {
-            1.0
-        } else {
-            cos * reach_cos + real::safe_sqrt(1.0 - cos * cos) * reach_sin
-        };
-        0.5 * self.flux * (nearest.max(0.0) + cos.max(0.0))
+        Regards::of(std::slice::from_ref(self)).irradiance(0, n)
+    }
+}
+
+/// What a receiver asks of all parts, number by number: for loops over many at once.
+pub struct Regards {
+    middle: [[f32; LANES]; 3],
+    reach: [[f32; LANES]; 2],
+    /// Half the flux; 0 where there is no part.
+    half: [f32; LANES],
+    count: usize,
+}
+
+impl Regards {
+    /// Of these parts.
+    pub fn of(parts: &[Part]) -> Regards {
+        let (middle, reach) = ([[0.0; LANES]; 3], [[0.0; LANES]; 2]);
+        let mut all = Regards { middle, reach, half: [0.0; LANES], count: parts.len() };
+        for (k, part) in parts.iter().enumerate() {
+            (0..3).for_each(|axis| all.middle[axis][k] = part.middle[axis]);
+            (0..2).for_each(|i| all.reach[i][k] = part.reach[i]);
+            all.half[k] = 0.5 * part.flux;
+        }
+        all
+    }
+
+    /// About the irradiance of a part on the side of the unit normal `n`: halfway between what it would give from its
+    /// middle and from its nearest point, and so above 0 wherever a piece of it is in sight.
+    #[inline(always)]
+    fn irradiance(&self, k: usize, n: World) -> f32 {
+        let cos = self.middle[0][k] * n.x + self.middle[1][k] * n.y + self.middle[2][k] * n.z;
+        let [reach_cos, reach_sin] = [self.reach[0][k], self.reach[1][k]];
+        let aside = cos * reach_cos + real::safe_sqrt(1.0 - cos * cos) * reach_sin;
+        let nearest = if cos >= reach_cos { 1.0 } else { aside };
+        self.half[k] * (nearest.max(0.0) + cos.max(0.0))
     }
 }
 
@@ -102,25 +129,27 @@ impl Tiles {
 
 /// The chances of the parts for a receiver, as running numbers of steps.
 pub struct Chances {
-    ends: [u32; MOST],
+    /// Beyond the last part all steps.
+    ends: [u32; LANES],
     count: usize,
 }
 
 impl Chances {
-    /// In proportion to what each gives about the normal `n`; no more than a step to each that gives anything is lost.
+    /// In proportion to what each gives about the normal `n`.
     #[inline]
-    pub fn new(parts: &[Part], n: World) -> Chances {
-        let (mut weights, mut ends) = ([0.0f32; MOST], [0; MOST]);
-        weights.iter_mut().zip(parts).for_each(|(weight, part)| *weight = part.irradiance(n));
-        let count = parts.len();
-        let any = steps::share_out_fast(&weights[..count], &mut ends[..count]);
-        Chances { ends, count: if any { count } else { 0 } }
+    pub fn new(parts: &Regards, n: World) -> Chances {
+        let (mut weights, mut ends) = ([0.0; LANES], [0; LANES]);
+        for (k, weight) in weights.iter_mut().enumerate() {
+            *weight = parts.irradiance(k, n);
+        }
+        let any = steps::share_out_fast(&weights, &mut ends);
+        Chances { ends, count: if any { parts.count } else { 0 } }
     }
 
     /// Draws a part.
     #[inline]
     pub fn pick(&self, u: f32) -> Option<steps::Choice> {
-        steps::pick(&self.ends[..self.count], u)
+        if self.count > 0 { steps::pick_few(&self.ends, u) } else { None }
     }
 
     /// The chance of a part.

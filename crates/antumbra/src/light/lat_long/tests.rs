@@ -146,12 +146,15 @@ fn densities_cover_the_light() {
 #[test]
 fn drawn_in_proportion_to_the_look_up() {
     for (name, map) in maps().filter(|m| m.1.sun.is_none() && !m.0.contains("black")) {
+        let rest = |corners: [(u32, u32); 4]| corners.map(|(x, y)| map.light(x, y));
         let value = |i: u32| {
             let u = [hash::hash2(i, 3), hash::hash2(i, 4)].map(|h| (h >> 8) as f32 / 16_777_216.0);
             let part = &map.parts[i as usize % map.parts.len()].cells;
-            let (place, _) = part.sample(u, |x, y| map.rest(x, y)).unwrap();
+            let (place, _) = part.sample(u, rest).unwrap();
             // The part's own solid angle is in its density: the whole's share of it is not.
-            let (light, pdf) = (map.look_up(place).luminance(), part.pdf(place, |x, y| map.rest(x, y)));
+            let colors = map.colors(place);
+            let corners = map.grid.corners(place.column, place.row);
+            let (light, pdf) = (between(colors, place).luminance(), part.pdf(place, rest(corners)));
             (i as usize % map.parts.len(), f64::from(light / pdf))
         };
         let values: Vec<(usize, f64)> = (0..5000).map(value).collect();
@@ -171,7 +174,7 @@ fn drawn_in_proportion_to_the_look_up() {
 fn the_sun_is_drawn_where_it_shines() {
     let (_, image) = cases().into_iter().find(|c| c.0 == "sun").unwrap();
     let map = LatLong::new(image, false);
-    assert_eq!(Chances::new(&map.parts, -UP).of(0), 0.0);
-    assert!(Chances::new(&map.parts, UP).of(0) > 0.8);
+    assert_eq!(Chances::new(&map.regards, -UP).of(0), 0.0);
+    assert!(Chances::new(&map.regards, UP).of(0) > 0.8);
     assert!(map.irradiance(UP) > 5.0 * map.irradiance(-UP));
 }
