@@ -1,6 +1,11 @@
-"""Numbers as people write them: counts, three significant digits, durations, sizes."""
+"""Words for people: numbers, counts, durations, sizes, powers of ten; and the nearest right word for a wrong one."""
 
 from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+_RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 def count(n: float) -> str:
@@ -55,3 +60,35 @@ def size(n: float) -> str:
 def some(n: int, one: str, many: str = "") -> str:
     """`1 triangle`, `98 triangles`."""
     return f"{n:,} {one if n == 1 else many or one + 's'}"
+
+
+def minus(text: str) -> str:
+    """The same number with a minus sign in place of a hyphen; −0 is 0."""
+    if text.startswith("-") and not text.strip("-0.,"):
+        text = text[1:]
+    return text.replace("-", "−")
+
+
+def power_of_ten(power: int) -> str:
+    """`10⁻⁷`."""
+    return "10" + str(power).translate(_RAISED)
+
+
+def written(x: float, digits: int = 3) -> str:
+    """A number in so many significant digits, all of those before the point: 0.041, 4, 12.5, 1,234, 3.2 × 10⁻⁶."""
+    if x == 0 or not math.isfinite(x):
+        return "0" if x == 0 else minus(str(x))
+    if not 1e-4 <= abs(x) < 1e6:
+        mantissa, power = f"{x:.{digits - 1}e}".split("e")
+        return f"{minus(mantissa)} × {power_of_ten(int(power))}"
+    places = max(0, digits - 1 - math.floor(math.log10(abs(float(f"{x:.{digits - 1}e}")))))
+    text = f"{x:,.{places}f}"
+    return minus(text.rstrip("0").rstrip(".") if "." in text else text)
+
+
+def did_you_mean(text: str, known: Sequence[str], form: str = '"{}"') -> str:
+    """`; did you mean "area"?`, or nothing."""
+    from antumbra import _core
+
+    near = _core.nearest(text, list(known))
+    return f"; did you mean {form.format(near)}?" if near else ""

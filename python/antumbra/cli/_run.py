@@ -69,7 +69,7 @@ def _dispatch(arguments: list[str]) -> int:
         return DONE
     if first not in verbs():
         kind = "option" if first.startswith("-") else "verb"
-        hint = _say.nearest_hint(first, [*verbs(), "--help", "--version"])
+        hint = _say.did_you_mean(first, [*verbs(), "--help", "--version"])
         raise click.UsageError(
             f'there is no {kind} "{first}"{hint} ({", ".join(v.name or "" for v in _in_order())})'
         )
@@ -99,7 +99,7 @@ def _usage(problem: click.UsageError) -> tuple[str, str]:
     hint = f"`{ctx.command_path} --help` lists what there is." if ctx else ""
     if isinstance(problem, click.NoSuchOption):
         known = [name for param in ctx.command.params for name in param.opts] if ctx else []
-        near = _say.nearest_hint(problem.option_name, known, "{}")
+        near = _say.did_you_mean(problem.option_name, known, "{}")
         return f"there is no option {problem.option_name}{near}", hint
     if isinstance(problem, click.MissingParameter) and problem.param:
         own = problem.param.opts if isinstance(problem.param, click.Option) else []

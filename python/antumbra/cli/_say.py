@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import sys
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 
 from antumbra._words import count as count
+from antumbra._words import did_you_mean as did_you_mean
 from antumbra._words import exact as exact
 from antumbra._words import seconds as seconds
 from antumbra._words import significant as significant
@@ -38,11 +39,3 @@ def messages(file: str, said: Iterable[tuple[str, str, str]]) -> None:
         place = first[level, text]
         more = f" (and {n - 1:,} more like it)" if n > 1 else ""
         _line(level, ": ".join(part for part in (file, place, as_typed(text)) if part) + more)
-
-
-def nearest_hint(text: str, known: Sequence[str], form: str = '"{}"') -> str:
-    """`; did you mean "area"?`, or nothing."""
-    from antumbra import _core
-
-    near = _core.nearest(text, list(known))
-    return f"; did you mean {form.format(near)}?" if near else ""

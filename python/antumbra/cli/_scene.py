@@ -41,7 +41,7 @@ def open_scene(
             raise
     known = [name for name, _, _ in _core.builtins()]
     if scene not in known:
-        hint = _say.nearest_hint(scene, known)
+        hint = _say.did_you_mean(scene, known)
         raise click.UsageError(f'there is no scene "{scene}"{hint} ({", ".join(known)}; a file has a dot)')
     return _core.Scene.builtin(scene, [(name, number(name, text)) for name, text in given], keep=False)
 

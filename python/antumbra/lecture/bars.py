@@ -7,7 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import ArrayLike
 
-from antumbra.lecture.quantity import written
+from antumbra._words import written
 
 
 def ticks(

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from functools import cache
 from pathlib import Path
 
+from antumbra._words import did_you_mean
 from antumbra.errors import OptionError
 from antumbra.lecture.figure import Figure
 
@@ -43,13 +44,10 @@ def chosen(asked: Sequence[str]) -> dict[str, Figure]:
 
     Raises OptionError with the nearest right name.
     """
-    from antumbra import _core
-
     known = names()
     for name in asked:
         if name not in known:
-            near = _core.nearest(name, known)
-            hint = f'; did you mean "{near}"?' if near else ""
+            hint = did_you_mean(name, known)
             raise OptionError(f'there is no figure "{name}"{hint} ({", ".join(ordered())})')
     return {name: each for name, each in ordered().items() if not asked or name in asked}
 

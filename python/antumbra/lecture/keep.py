@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import hashlib
 import json
-import os
 import re
 import shutil
 import tempfile
@@ -14,6 +13,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+from antumbra._files import PART, write_whole
 from antumbra._made_by import made_by
 from antumbra.lecture import catalog
 from antumbra.lecture.believed import is_record
@@ -60,8 +60,8 @@ class Folder:
             self._settle(made)
         for left in (
             *self.path.glob(f"{_UNFINISHED}*"),
-            *self.path.glob(".*.part"),
-            *self.path.glob("kept/.*.part"),
+            *self.path.glob(f".*{PART}"),
+            *self.path.glob(f"kept/.*{PART}"),
         ):
             if time.time() - max(p.lstat().st_mtime for p in (left, *left.rglob("*"))) < _LEFT:
                 continue
@@ -149,22 +149,8 @@ class Folder:
         """Writes a file whole or not at all."""
         path = self.path / file
         path.parent.mkdir(parents=True, exist_ok=True)
-        handle, name = tempfile.mkstemp(prefix=".", suffix=".part", dir=path.parent)
-        try:
-            with os.fdopen(handle, "w", encoding="utf-8") as out:
-                out.write(text)
-            Path(name).chmod(0o666 & ~_umask())
-            Path(name).replace(path)
-        except BaseException:
-            Path(name).unlink(missing_ok=True)
-            raise
+        write_whole(path, text)
 
 
 def _no_number(word: str) -> float:
     raise ValueError(f"{word} is no number")
-
-
-def _umask() -> int:
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask

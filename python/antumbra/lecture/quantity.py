@@ -6,6 +6,8 @@ import math
 from dataclasses import asdict, dataclass
 from typing import Any
 
+from antumbra._words import minus, written
+
 
 @dataclass(frozen=True)
 class Quantity:
@@ -64,25 +66,3 @@ class Quantity:
         ends = zip(("error", "low", "high"), (self.error, *self.interval), strict=True)
         known = {name: end if math.isfinite(end) else None for name, end in ends}
         return {**asdict(self), **known, "text": str(self)}
-
-
-def minus(text: str) -> str:
-    """The same number with a minus sign in place of a hyphen; −0 is 0."""
-    if text.startswith("-") and not text.strip("-0.,"):
-        text = text[1:]
-    return text.replace("-", "−")
-
-
-def written(x: float, digits: int = 3) -> str:
-    """A number in so many significant digits, as people write it: 0.041, 4, 12.5, 1,230, 3.2 × 10⁻⁶."""
-    if x == 0 or not math.isfinite(x):
-        return "0" if x == 0 else minus(str(x))
-    if not 1e-4 <= abs(x) < 1e6:
-        mantissa, power = f"{x:.{digits - 1}e}".split("e")
-        return f"{minus(mantissa)} × 10{str(int(power)).translate(_RAISED)}"
-    places = max(0, digits - 1 - math.floor(math.log10(abs(float(f"{x:.{digits - 1}e}")))))
-    text = f"{x:,.{places}f}"
-    return minus(text.rstrip("0").rstrip(".") if "." in text else text)
-
-
-_RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")

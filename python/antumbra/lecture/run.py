@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from antumbra import _core
+from antumbra._words import written
 from antumbra.lecture import bars, pictures
 from antumbra.lecture.counted import counted
-from antumbra.lecture.quantity import written
 from antumbra.lecture.stages import Bar, Picture
 from antumbra.lecture.variant import Pick, Variant, edition
 

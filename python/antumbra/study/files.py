@@ -8,13 +8,13 @@ from __future__ import annotations
 import hashlib
 import json
 import math
-import os
 from collections.abc import Container
 from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from antumbra import _core
+from antumbra._files import write_whole
 from antumbra.study.rows import Row
 
 if TYPE_CHECKING:
@@ -41,14 +41,14 @@ def check_folder(folder: Path) -> None:
 
 def keep(study: Study, folder: Path) -> None:
     """Writes results.json alone: so much survives whatever ends the process."""
-    _replace(folder / "results.json", study.json())
+    write_whole(folder / "results.json", study.json())
 
 
 def write(study: Study, folder: Path) -> None:
     """Writes all three files. The page is made before any of them is touched."""
     texts = dict(zip(NAMES, (study.csv(), study.json(), study.html()), strict=True))
     for name, text in texts.items():
-        _replace(folder / name, text)
+        write_whole(folder / name, text)
 
 
 def set_aside(folder: Path, study: Study, keys: Container[str]) -> Path | None:
@@ -123,12 +123,3 @@ def _pilots(file: Path, asked: str) -> dict[str, Any]:
         return kept
     except (OSError, ValueError, KeyError, TypeError, AttributeError):
         return {}
-
-
-def _replace(target: Path, text: str) -> None:
-    beside = target.with_name(f".{target.name}.{os.getpid()}")
-    try:
-        beside.write_text(text, encoding="utf-8")
-        beside.replace(target)
-    finally:
-        beside.unlink(missing_ok=True)

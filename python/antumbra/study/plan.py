@@ -7,7 +7,8 @@ from dataclasses import dataclass, field
 from itertools import product
 from typing import Any
 
-from antumbra import _core, settings
+from antumbra import settings
+from antumbra._words import did_you_mean
 from antumbra.errors import OptionError
 
 RAYS = ("shadow_rays", "viewing_rays")
@@ -123,8 +124,7 @@ def _name(given: str) -> str:
     if name in _REFUSED:
         raise OptionError(f"{table[name].option[2:]} cannot be varied: {_REFUSED[name]}")
     if name not in table:
-        near = _core.nearest(name, [n for n in table if n not in _REFUSED])
-        hint = f'; did you mean "{near.replace("_", "-")}"?' if near else ""
+        hint = did_you_mean(name, [n for n in table if n not in _REFUSED]).replace("_", "-")
         raise OptionError(
             f'there is no setting "{given}" to vary{hint} (D.NAME varies a parameter of the scene)'
         )
@@ -170,8 +170,7 @@ def _budget(budget: Mapping[str, Sequence[float]]) -> tuple[str, list[float | No
         raise OptionError("a budget is of rays or of seconds, not of both")
     ((counted, amounts),) = budget.items()
     if counted not in ("rays", "seconds"):
-        near = _core.nearest(counted, ["rays", "seconds"])
-        hint = f'; did you mean "{near}"?' if near else ""
+        hint = did_you_mean(counted, ["rays", "seconds"])
         raise OptionError(f'there is no budget of "{counted}"{hint} (rays per pixel, seconds per picture)')
     if not amounts or not all(0 < a < float("inf") for a in amounts):
         raise OptionError(f"budget {counted}: numbers above 0 are needed")

@@ -21,6 +21,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from antumbra._words import power_of_ten
 from antumbra.study import statistics
 from antumbra.study._svg import converted
 
@@ -308,6 +309,6 @@ def _written(value: float) -> str:
     decimal = f"{value:.3g}"
     if "e" in decimal or (value and abs(value) < 1e-3):
         head, power = f"{value:.0e}".split("e")
-        ten = statistics.power_of_ten(int(power))
+        ten = power_of_ten(int(power))
         return (ten if head == "1" else f"{head}·{ten}").replace("-", "−")
     return decimal.replace("-", "−")

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from antumbra import _core
+from antumbra._words import did_you_mean
 from antumbra.errors import OptionError
 from antumbra.study.content import content
 
@@ -51,8 +52,7 @@ def source(scene: Any) -> Source:
         return file(str(scene))
     known = [name for name, _, _ in _core.builtins()]
     if scene not in known:
-        near = _core.nearest(scene, known)
-        hint = f'; did you mean "{near}"?' if near else ""
+        hint = did_you_mean(scene, known)
         raise OptionError(f'there is no scene "{scene}"{hint} ({", ".join(known)}; a file has a dot)')
     return Source(lambda given: _built_in(scene, given), scene, f"built-in {scene}", builtin=scene)
 
@@ -98,8 +98,7 @@ def _check(scene: str, given: Parameters) -> None:
     ranges = {name: (low, high) for name, _, low, high, _ in known}
     for name, value in given.items():
         if name not in ranges:
-            near = _core.nearest(name, list(ranges))
-            hint = f'; did you mean "{near}"?' if near else ""
+            hint = did_you_mean(name, list(ranges))
             listed = ", ".join(ranges) or "none"
             raise OptionError(f'{scene} has no parameter "{name}"{hint} (it has: {listed})')
         low, high = ranges[name]

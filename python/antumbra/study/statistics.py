@@ -14,6 +14,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from antumbra._words import minus, power_of_ten
 from antumbra.study._quantiles import t_quantile
 
 LEVEL = 0.95
@@ -44,7 +45,7 @@ class Interval(NamedTuple):
 def plus_minus(value: float, half: float) -> str:
     """`−0.499 ± 0.002`, `3.999 ± 0.014`: the error in one digit (two if it begins with 1), the value as far as that."""
     if not (math.isfinite(half) and half > 0):
-        return _minus(f"{value:.4g}" if half == 0 else f"{value:.4g} ± ?")
+        return minus(f"{value:.4g}" if half == 0 else f"{value:.4g} ± ?")
     scale = math.floor(math.log10(max(abs(value), half)))
     if not -4 <= scale < 6:
         inner = plus_minus(value / 10.0**scale, half / 10.0**scale)
@@ -52,16 +53,7 @@ def plus_minus(value: float, half: float) -> str:
     power = math.floor(math.log10(half))
     digits = max(0, -power + (half < 2 * 10.0**power))
     shown = f"{value:,.{digits}f}"
-    return _minus(f"{shown if float(shown.replace(',', '')) else shown.lstrip('-')} ± {half:,.{digits}f}")
-
-
-def _minus(text: str) -> str:
-    return text.replace("-", "−")
-
-
-def power_of_ten(power: int) -> str:
-    """`10⁻⁷`."""
-    return "10" + str(power).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
+    return minus(f"{shown if float(shown.replace(',', '')) else shown.lstrip('-')} ± {half:,.{digits}f}")
 
 
 def mean(replicates: ArrayLike, level: float = LEVEL) -> Interval:

@@ -7,11 +7,11 @@ import math
 import numpy as np
 import pytest
 
-from antumbra.lecture import low_room
 from antumbra.lecture.fisheye import LIGHT, Fisheye
 from antumbra.lecture.measures import solid_angle
 from antumbra.lecture.measures.maps import box_mean
-from antumbra.lecture.square_lights import irradiance_under
+from antumbra.lecture.scenes import low_room
+from antumbra.lecture.scenes.square_lights import irradiance_under
 
 
 def test_solid_angles_are_those_of_the_table_of_closed_forms():

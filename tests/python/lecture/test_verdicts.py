@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import pytest
 
+from antumbra._words import written
 from antumbra.lecture.figure import Claim, Figure, Question
 from antumbra.lecture.measures.ratio import excess, ratio
 from antumbra.lecture.measures.replicates import of_interval
-from antumbra.lecture.quantity import Quantity, written
+from antumbra.lecture.quantity import Quantity
 from antumbra.lecture.verdict import verdict
 from antumbra.study import statistics
 from antumbra.study.statistics import Interval

@@ -11,8 +11,8 @@ from antumbra.lecture.figure import Claim, Equation, Figure, Number, Pick, Quest
 from antumbra.lecture.measures.penumbra import board_widths
 from antumbra.lecture.quantity import Quantity
 from antumbra.lecture.run import Run
+from antumbra.lecture.scenes.square_lights import DISTANCE_RATIOS, boards_under_square, irradiance_under
 from antumbra.lecture.sketches.area_light import frame
-from antumbra.lecture.square_lights import DISTANCE_RATIOS, boards_under_square, irradiance_under
 from antumbra.lecture.stages import Part, Plot, Strip
 from antumbra.lecture.stages.quantities import curve_of, table_of
 from antumbra.study.plot import error_curves

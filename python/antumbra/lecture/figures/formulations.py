@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from antumbra.lecture import low_room
 from antumbra.lecture.figure import Claim, Equation, Figure, Number, Pick, Question, Variant
 from antumbra.lecture.measures.three_forms import FORMS, ONE, at_the_middle
 from antumbra.lecture.quantity import Quantity
 from antumbra.lecture.run import Run
+from antumbra.lecture.scenes import low_room
 from antumbra.lecture.sketches.three_forms import frames, near_a_corner, plot
 from antumbra.lecture.stages import Panel, Part, Strip, Tabs
 

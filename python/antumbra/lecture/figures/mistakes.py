@@ -6,12 +6,12 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from antumbra.lecture import low_room
 from antumbra.lecture.figure import Claim, Equation, Figure, Number, Pick, Question, Variant
 from antumbra.lecture.measures.five_tests import RAYS, SIGNS, TESTS, WITHIN, all_tests, passed
 from antumbra.lecture.mistakes import MISTAKES, SPOKEN, TESTED, Mistake, sum_with
 from antumbra.lecture.quantity import Quantity
 from antumbra.lecture.run import Run
+from antumbra.lecture.scenes import low_room
 from antumbra.lecture.stages import Panel, Part, Row, Tabs
 from antumbra.lecture.stages.formula import Formula
 from antumbra.lecture.stages.quantities import table_of

@@ -15,9 +15,9 @@ from antumbra.lecture.measures.ratio import excess, ratio, times
 from antumbra.lecture.measures.replicates import mean_of
 from antumbra.lecture.quantity import Quantity
 from antumbra.lecture.run import Run
+from antumbra.lecture.scenes.three_pillars import ALBEDO, AREA, PIXEL, VIEW, three_pillars
 from antumbra.lecture.sketches.pixel import shadow_rays_linked
 from antumbra.lecture.stages import Linked
-from antumbra.lecture.three_pillars import ALBEDO, AREA, PIXEL, VIEW, three_pillars
 
 CELLS, TIMES = 3, 200
 ONE: dict[str, Any] = VIEW | {

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from antumbra.lecture.chapters import DIRECT
-from antumbra.lecture.disks import from_above, receiver_behind
 from antumbra.lecture.figure import Claim, Equation, Figure, Number, Pick, Question, Variant
 from antumbra.lecture.geometry import Disks
 from antumbra.lecture.measures.regions import crossing, ends_on_axis, radii_of
 from antumbra.lecture.quantity import Quantity
 from antumbra.lecture.run import Run
+from antumbra.lecture.scenes.disks import from_above, receiver_behind
 from antumbra.lecture.sketches.regions import receiver_moved
 from antumbra.lecture.stages import Part
 from antumbra.lecture.stages.regions import regions_key

@@ -7,10 +7,10 @@ from collections.abc import Mapping
 import numpy as np
 
 from antumbra.lecture.figure import Claim, Equation, Figure, Number, Pick, Question, Variant
-from antumbra.lecture.leaning_board import ANGLE, leaning_board, look
 from antumbra.lecture.measures.start_points import starts_measured, worst_file
 from antumbra.lecture.quantity import Quantity
 from antumbra.lecture.run import Run
+from antumbra.lecture.scenes.leaning_board import ANGLE, leaning_board, look
 from antumbra.lecture.sketches.start_points import starts_compared
 from antumbra.lecture.stages import Part
 

@@ -6,11 +6,12 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from antumbra._words import minus
 from antumbra.lecture.figure import Claim, Equation, Figure, Number, Pick, Question
-from antumbra.lecture.lone_lights import ABOVE, LIGHTS, alone, omega_above
 from antumbra.lecture.measures.solid_angle import both_ways, sum_over_patches
-from antumbra.lecture.quantity import Quantity, minus
+from antumbra.lecture.quantity import Quantity
 from antumbra.lecture.run import Run
+from antumbra.lecture.scenes.lone_lights import ABOVE, LIGHTS, alone, omega_above
 from antumbra.lecture.sketches.solid_angle import from_the_side, sky
 from antumbra.lecture.stages import Frame, Part, Strip
 from antumbra.lecture.stages.quantities import table_of

@@ -11,7 +11,7 @@ from antumbra.lecture.measures.seen import irradiance_seen
 from antumbra.lecture.quantity import Quantity
 from antumbra.lecture.run import Run
 from antumbra.lecture.scenes import SceneOf
-from antumbra.lecture.square_lights import floor_under_square, irradiance_under
+from antumbra.lecture.scenes.square_lights import floor_under_square, irradiance_under
 from antumbra.lecture.variant import Pick
 from antumbra.study.statistics import Interval, verdict
 

@@ -12,7 +12,7 @@ from antumbra.lecture.measures.ratio import excess, ratio
 from antumbra.lecture.measures.replicates import mean_of
 from antumbra.lecture.quantity import Quantity
 from antumbra.lecture.run import Run
-from antumbra.lecture.square_lights import BOARDS, DISTANCE_RATIOS, LIGHT_HEIGHT, boards_under_square
+from antumbra.lecture.scenes.square_lights import BOARDS, DISTANCE_RATIOS, LIGHT_HEIGHT, boards_under_square
 from antumbra.lecture.variant import Pick
 from antumbra.scene import Scene
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from antumbra.lecture.run import Run
-from antumbra.lecture.three_pillars import ALBEDO, AREA, CORNER, PIXEL, RADIANCE, U, V, three_pillars
+from antumbra.lecture.scenes.three_pillars import ALBEDO, AREA, CORNER, PIXEL, RADIANCE, U, V, three_pillars
 
 Array = NDArray[np.float64]
 

@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from antumbra.lecture.leaning_board import FLOOR, Truth, leaning_board, truth
 from antumbra.lecture.measures.replicates import mean_of
 from antumbra.lecture.quantity import Quantity
 from antumbra.lecture.run import Run
+from antumbra.lecture.scenes.leaning_board import FLOOR, Truth, leaning_board, truth
 
 Cameras = Mapping[str, Mapping[str, Any]]
 

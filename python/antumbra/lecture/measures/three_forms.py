@@ -9,14 +9,14 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 import antumbra as am
-from antumbra.lecture import low_room
 from antumbra.lecture.measures.maps import box_mean
 from antumbra.lecture.measures.one_sample import Samples, moments_of_light_points, one_sample
 from antumbra.lecture.measures.ratio import ratio
 from antumbra.lecture.measures.replicates import mean_of
 from antumbra.lecture.quantity import Quantity
 from antumbra.lecture.run import Run
-from antumbra.lecture.square_lights import square_light
+from antumbra.lecture.scenes import low_room
+from antumbra.lecture.scenes.square_lights import square_light
 from antumbra.lecture.variant import Pick
 
 # What is sampled, and the options of `render` that do it.

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 from antumbra.lecture.quantity import Quantity
 from antumbra.lecture.run import Run
-from antumbra.lecture.square_lights import DISTANCE_RATIOS
+from antumbra.lecture.scenes.square_lights import DISTANCE_RATIOS
 from antumbra.lecture.stages import Drawing, Frame, Sketch
 from antumbra.lecture.stages.drawing import INK, LIGHT, LIT, PENUMBRA, UMBRA
 

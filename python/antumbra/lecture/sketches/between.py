@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
+from antumbra._words import minus
 from antumbra.lecture.measures.false_shadow import wrong_pixels
-from antumbra.lecture.quantity import minus
 from antumbra.lecture.run import Run
 from antumbra.lecture.stages import Drawing, Frame, Sketch, Strip
 from antumbra.lecture.stages.drawing import INK, LIGHT, LIT, RIM, Point

@@ -10,9 +10,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from antumbra.lecture.measures.pixel_rays import Rays
 from antumbra.lecture.run import Run
+from antumbra.lecture.scenes.three_pillars import ALBEDO, AREA, CORNER, RADIANCE, VIEW, U, V, three_pillars
 from antumbra.lecture.stages import Drawing, Linked, Sketch, Table
 from antumbra.lecture.stages.drawing import LIGHT, RIM, Point
-from antumbra.lecture.three_pillars import ALBEDO, AREA, CORNER, RADIANCE, VIEW, U, V, three_pillars
 
 Array = NDArray[np.float64]
 Project = Callable[[ArrayLike], Point]

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from antumbra.lecture.quantity import minus
+from antumbra._words import minus
 from antumbra.lecture.run import Run
 from antumbra.lecture.stages import Frame, Strip
 

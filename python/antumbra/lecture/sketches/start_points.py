@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from antumbra.lecture.quantity import Quantity, written
+from antumbra._words import power_of_ten, written
+from antumbra.lecture.quantity import Quantity
 from antumbra.lecture.run import Run
 from antumbra.lecture.stages import Entry, Frame, Key, Part, Strip
-from antumbra.study.statistics import power_of_ten
 
 
 def starts_compared(

@@ -8,11 +8,11 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from antumbra.lecture import low_room
 from antumbra.lecture.measures.maps import box_mean
 from antumbra.lecture.measures.three_forms import DISTANCES, FORMS, exact, scatter
 from antumbra.lecture.quantity import Quantity
 from antumbra.lecture.run import Run
+from antumbra.lecture.scenes import low_room
 from antumbra.lecture.stages import Frame, Picture, Plot, Table
 from antumbra.lecture.stages.quantities import curve_of, table_of
 from antumbra.study.plot import error_curves

@@ -6,8 +6,9 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
+from antumbra._words import written
 from antumbra.lecture.measures.visits import COUNTS, RAYS, shadow_rays
-from antumbra.lecture.quantity import Quantity, written
+from antumbra.lecture.quantity import Quantity
 from antumbra.lecture.run import Run
 from antumbra.lecture.stages import Picture, Row, Table
 from antumbra.scene import Scene

@@ -9,7 +9,7 @@ import numpy as np
 import antumbra as am
 from antumbra.lecture.measures.solid_angle import of_rectangle, of_triangle
 from antumbra.lecture.scenes import SceneOf
-from antumbra.lecture.square_lights import square_light
+from antumbra.lecture.scenes.square_lights import square_light
 from antumbra.lights import Light
 
 _CORNERS = np.array([[1.0, 2.0, 0.5], [-1.5, 2.5, 1.0], [0.2, 1.8, -1.4]])
