@@ -79,7 +79,7 @@ CHAPTERS = (
     Chapter(
         number=2,
         title="Shadow rays",
-        short="Shadow rays",
+        short="Rays",
         paragraphs=(
             "A shadow ray asks one question: is anything strictly between these two points? The first yes ends the "
             "search, whatever else lies on the segment.",
@@ -105,7 +105,7 @@ CHAPTERS = (
     Chapter(
         number=3,
         title="Two integrals",
-        short="Two integrals",
+        short="Integrals",
         paragraphs=(
             "The light that arrives can be added up over directions, or over points of the lights. Both sums have the "
             "same value: dω and dA are two ways to cut up the same light.",

@@ -21,12 +21,14 @@ if TYPE_CHECKING:
 class Question:
     """What to predict first: one or two sentences, two to four `choices`, and the number of the right one.
 
-    `looks`: it asks about the pictures, which stand on its slide then.
+    `proof`: the claims, by the quantity that each is `of`, that say so: where a run does not support all of them, the
+    page calls no choice right. `looks`: it asks about the pictures, which stand on its slide then.
     """
 
     text: str
     choices: Sequence[str]
     right: int
+    proof: Sequence[str]
     looks: bool = False
 
     def __post_init__(self) -> None:
@@ -113,6 +115,9 @@ class Figure:
         """A figure has one main claim, and its variants have names of their own."""
         if sum(claim.main for claim in self.claims) != 1:
             raise ValueError(f"{self.title!r}: exactly one claim is the main one")
+        claimed = {claim.of for claim in self.claims}
+        if not self.question.proof or not claimed.issuperset(self.question.proof):
+            raise ValueError(f"{self.title!r}: the answer of its question needs claims that prove it")
         keys = [variant.key for variant in self.variants]
         if len(set(keys)) != len(keys):
             raise ValueError(f"{self.title!r}: two variants have the same key")

@@ -222,7 +222,7 @@ def examine(figure: Figure, run: Run) -> dict[str, Any]:
         "number": figure.number,
         "chapter": figure.chapter,
         "title": figure.title,
-        "question": asdict(figure.question),
+        "question": {**asdict(figure.question), "open": _unproved(figure, claims)},
         "stage": stage,
         "answer": _answer(figure, measured),
         "equation": asdict(figure.equation),
@@ -270,6 +270,15 @@ def _answer(figure: Figure, measured: Mapping[str, Quantity]) -> dict[str, str]:
         "unit": quantity.unit,
         "text": figure.answer.text.format(**measured),
     }
+
+
+def _unproved(figure: Figure, claims: Sequence[Mapping[str, Any]]) -> list[str]:
+    """Claims that the answer of the question rests on and that this run does not support."""
+    return [
+        claim["text"]
+        for claim in claims
+        if claim["of"] in figure.question.proof and claim["verdict"] != "supported"
+    ]
 
 
 def _opening(chapter: Chapter) -> str:

@@ -14,7 +14,8 @@ class Quantity:
     """`value` ± `error` (95 %; 0: exact, infinite: not known); `unit` "%" writes per cent.
 
     `low` and `high`: the ends of its interval where they are not equally far; `error` is then the larger distance.
-    In the sentences of a figure `{name}` writes the error with two digits, `{name:1}` with one, `{name:v}` without it.
+    In the sentences of a figure `{name}` writes the error with two digits, `{name:1}` with one, `{name:v}` without it,
+    `{name:r}` the ends of the interval in its place.
 
     >>> f"{Quantity(3.999, 0.014)} {Quantity(3.999, 0.014):1} {Quantity(0.5, unit='%'):v}"
     '3.999 ± 0.014 4.00 ± 0.01 50 %'
@@ -33,10 +34,13 @@ class Quantity:
         low = self.value - self.error if self.low is None else self.low
         return low, self.value + self.error if self.high is None else self.high
 
+    @property
+    def _scale(self) -> float:
+        return 100.0 if self.unit == "%" else 1.0
+
     def number(self, digits: int = 2) -> tuple[str, str]:
         """The value and its error as text, the error in so many digits; "" for no error."""
-        scale = 100.0 if self.unit == "%" else 1.0
-        value, error = scale * self.value, scale * self.error
+        value, error = self._scale * self.value, self._scale * self.error
         if not math.isfinite(error):
             return written(value), "?"
         if not error > 0:
@@ -46,12 +50,15 @@ class Quantity:
         return minus(f"{value:,.{places}f}"), f"{error:,.{places}f}"
 
     def __format__(self, spec: str) -> str:
-        """`value ± error unit`; spec "1", "2": digits of the error, "v": the value alone."""
+        """`value ± error unit`; spec "1", "2": digits of the error, "v": the value alone, "r": with both ends."""
+        if spec == "r":
+            middle, low, high = (written(self._scale * x) for x in (self.value, *self.interval))
+            return f"{middle} ({low} … {high})" + (f" {self.unit}" if self.unit else "")
         digits = int(spec) if spec.isdigit() else 2
         value, error = self.number(digits)
         if spec == "v":
             value, error = (
-                (value if error.strip("?") else written((100 if self.unit == "%" else 1) * self.value)),
+                (value if error.strip("?") else written(self._scale * self.value)),
                 "",
             )
         tail = f" {self.unit}" if self.unit else ""

@@ -117,6 +117,8 @@ def _pilots(file: Path, asked: str) -> dict[str, Any]:
         if not asked or found["asked"] != asked or not all(map(math.isfinite, chain(*costs.values()))):
             return {}
         kept: dict[str, Any] = {"asked": asked, "costs": costs}
+        if "rays" in found:
+            kept["rays"] = int(found["rays"])
         if "reference" in found:
             by, refused = found["reference"]
             kept["reference"] = (str(by), {str(kind): str(why) for kind, why in refused.items()})

@@ -73,6 +73,18 @@ class Findings:
         """How large a bias may be that noise hides, as a part of the mean, where that is more than 5 %; else 0."""
         return blunt(self.rows)
 
+    def reference_error(self) -> tuple[float, float] | None:
+        """The standard error of the reference [W·m⁻²·sr⁻¹], a pixel, and the largest part of a row's noise that it is.
+
+        None without a reference, or where nothing is known of its noise.
+        """
+        known = [r for r in self.rows if r.mse is not None and r.reference_variance > 0]
+        if not known:
+            return None
+        parts = [r.reference_variance / r.variance.value for r in known if r.noisy]
+        most = max(r.reference_variance for r in known)
+        return math.sqrt(most), math.sqrt(max(parts)) if parts else math.inf
+
     def error(self, row: Row) -> Interval | None:
         """Root mean square error (RMSE) of a row against the reference; None without one. `Row.noise` needs none."""
         return row.rmse
@@ -139,7 +151,8 @@ class Findings:
         whole: dict[str, Any] = {
             "scene": self.scene, "size": list(self.size), "seeds": self.seeds, "axis": self.axis,
             "varied": self.varied, "fixed": self.fixed, "budget": self.budget, "reference": self.reference,
-            "complete": self.complete, "messages": [list(m) for m in self.messages],
+            "reference_error": self.reference_error(), "complete": self.complete,
+            "messages": [list(m) for m in self.messages],
             "variance_slopes": {name: self.slope(name) for name in self.curves()},
             "rows": [row.as_json() for row in self.rows], "command": self.command, "fingerprint": self.fingerprint,
             "pilots": self.pilots,

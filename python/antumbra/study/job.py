@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 from os import PathLike
@@ -19,10 +20,14 @@ from antumbra.study import kinds, renders
 from antumbra.study.content import content
 from antumbra.study.files import check_folder, finished_rows, keep, kept_pilots, key_of, set_aside, write
 from antumbra.study.plan import Plan, Variant
+from antumbra.study.precise import rays_needed
 from antumbra.study.renders import Step, Work
 from antumbra.study.result import Study
 from antumbra.study.rows import Pictures, Reference, Row, blunt, measured, untested
 from antumbra.study.sources import Source
+
+# The reference's own error, as a part of the least noise, from which on it is told: it is taken off, but not small.
+_LARGE = 0.5
 
 
 class StudyStopped(KeyboardInterrupt):
@@ -40,16 +45,19 @@ class Job:
     def __init__(self, made: Plan, source: Source, watch: Callable[[Step], object] | None) -> None:
         """Opens the first scene: what is wrong with it is told before anything is rendered."""
         source.check(v.parameters for v in made.variants)
-        self.plan, self.source, self.work = made, source, Work(source.open, watch)
-        self.truths = list(dict.fromkeys(v.truth() for v in made.variants))
+        self.source, self.work = source, Work(source.open, watch)
         self.given: Reference | None = None
         self.command, self.made = "", _made(made)
         self.by, self.rays, self.chooses = "", 0, False
         self.warnings: list[tuple[str, str, str]] = []
         self.pilots: dict[str, Any] = {}
         first = made.variants[0]
-        width, height = self.work.scene(first.parameters)._core.picture_size(list(first.words.items()))
+        opened = self.work.scene(first.parameters)._core
+        # What the scene's file asks for holds, as it does for `render`, where nothing else is said.
+        self.plan = made.suggested(opened.suggested())
+        width, height = opened.picture_size(list(self.plan.variants[0].words.items()))
         self.size = (width, height)
+        self.truths = list(dict.fromkeys(v.truth() for v in self.plan.variants))
 
     def settle_reference(self, given: Any, error: Any, rays: int | None) -> None:
         """Finds out what the reference is to be, and whether it fits."""
@@ -82,6 +90,12 @@ class Job:
             self.pilots["reference"] = kinds.chosen(self.plan, self.work, self.rays)
         self.by, refused = self.pilots["reference"]
         self._warn_of_parts(refused)
+
+    def _rays_of_reference(self) -> int:
+        """As many as make its own error small, as pilots find."""
+        if "rays" not in self.pilots:
+            self.pilots["rays"] = rays_needed(self.plan, self.work, self.by)
+        return int(self.pilots["rays"])
 
     def _warn_of_parts(self, refused: Mapping[str, str]) -> None:
         common = kinds.shared(self.by, self.plan)
@@ -131,6 +145,8 @@ class Job:
             self.plan = renders.within_budget(self.plan, self.work, self.pilots["costs"])
             if self.chooses:
                 self._choose_reference()
+            if self.by and not self.rays:
+                self.rays = self._rays_of_reference()
             done = self._finished(folder)
             for row in self._rows(set(done)):
                 done[key_of(row)] = row
@@ -281,9 +297,15 @@ def _about_reference(rows: list[Row]) -> list[tuple[str, str, str]]:
         what = "the reference found no light: bias was not tested (--reference names another estimator or picture)"
         return [("warning", "", what)]
     found: list[tuple[str, str, str]] = []
+    least = min((r.variance.value for r in rows if r.noisy), default=0.0)
+    own = max((r.reference_variance for r in rows), default=0.0)
+    if least and own > _LARGE**2 * least:
+        part = f"{100 * math.sqrt(own / least):.0f} % of the least noise"
+        what = f"the reference's own error is {part}: more rays (--reference-rays) or another reference help"
+        found = [("note", "", what)]
     if (share := 100 * untested(rows)) >= 0.5:
         what = f"bias was not tested in {share:.0f} % of the tiles: too few samples found light there"
-        found = [("note" if all(r.tested for r in tested) else "warning", "", what)]
+        found += [("note" if all(r.tested for r in tested) else "warning", "", what)]
     if not (hidden := blunt(rows)):
         return found
     size = f"below {100 * hidden:.0f} % of the mean" if hidden < 1 else "even as large as the mean"

@@ -6,6 +6,7 @@ import math
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
+from antumbra._words import written
 from antumbra.study import plot
 from antumbra.study.statistics import Interval, plus_minus, ratio
 
@@ -65,8 +66,11 @@ def _facts(study: Findings) -> dict[str, Any]:
         "over_seconds": ""
         if study.axis == "budget" and study.budget == "seconds"
         else _plot(study, "seconds"),
-        "slopes": [(name, slope, against_independent(slope)) for name, slope in _slopes(study)],
+        "slopes": [
+            (name, slope, _half_of(slope), against_independent(slope)) for name, slope in _slopes(study)
+        ],
         "rows": [_line(study, row) for row in study.rows],
+        "own_error": _own_error(study),
         "best": study.name_of(best) if best else "",
         "biased": _biased(study),
         "shown": _shown(study),
@@ -124,6 +128,21 @@ def _slopes(study: Findings) -> list[tuple[str, Interval]]:
     return [(name, slope) for name, slope in found if slope is not None]
 
 
+def _half_of(slope: Interval) -> Interval:
+    """Of the noise, which is the root of the variance."""
+    return Interval(slope.value / 2, slope.low / 2, slope.high / 2)
+
+
+def _own_error(study: Findings) -> str:
+    """How well the reference itself is known; nothing if that is not known."""
+    found = study.reference_error()
+    if found is None:
+        return ""
+    error, part = found
+    least = f", at most {_percent(100 * part)} % of the noise of a row" if math.isfinite(part) else ""
+    return f"own error {written(error, 2)} {RADIANCE} a pixel{least}"
+
+
 def against_independent(slope: Interval) -> str:
     """How the variance falls, in words: as that of independent samples, faster or slower; or undecided."""
     if slope.contains(-1.0):
@@ -164,7 +183,7 @@ def _times(gain: Interval) -> str:
         return "–"
     if gain.half < 0.3 * gain.value:
         return f"× {gain}"
-    return f"× {gain.value:.2g} ({gain.low:.2g} … {gain.high:.2g})"
+    return f"× {written(gain.value, 2)} ({written(gain.low, 2)} … {written(gain.high, 2)})"
 
 
 def _bias(row: Row) -> str:
@@ -178,7 +197,7 @@ def _bias(row: Row) -> str:
 
 def _percent(share: float) -> str:
     """Two digits, and all before the point."""
-    return f"{share:,.0f}" if share >= 10 else f"{share:.2g}"
+    return written(share, 2)
 
 
 def _biased(study: Findings) -> list[str]:
@@ -198,7 +217,7 @@ def _biased(study: Findings) -> list[str]:
 def _where(row: Row) -> str:
     """Where it is clearest, and how likely chance is."""
     assert row.bias is not None
-    chance = "below 10⁻⁶" if row.bias.p < 1e-6 else f"{row.bias.p:.1g}"
+    chance = "below 10⁻⁶" if row.bias.p < 1e-6 else written(row.bias.p, 1)
     place = ""
     if row.bias.tile is not None:
         x, y, width, height = row.bias.tile
@@ -212,6 +231,6 @@ def _dashed(name: str) -> str:
 
 def _short(value: str) -> str:
     try:
-        return f"{float(value):,.6g}"
+        return written(float(value), 6)
     except ValueError:
         return value

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import product
 from typing import Any
 
@@ -67,6 +67,13 @@ class Plan:
     budget: str = ""
     chosen: str = ""
     messages: list[str] = field(default_factory=list)
+
+    def suggested(self, asked: Mapping[str, str]) -> Plan:
+        """The plan of a scene whose file asks for these settings: they hold where nothing else is said."""
+        out = {*self.varied, *self.fixed, *_REFUSED, self.chosen}
+        kept = {name: value for name, value in asked.items() if name not in out}
+        variants = [replace(v, words={**kept, **v.words}) for v in self.variants]
+        return replace(self, variants=variants, fixed={**kept, **self.fixed})
 
 
 def shows(estimator: str, words: Mapping[str, str]) -> str:

@@ -49,6 +49,7 @@ class Work:
         self._scene: Scene | None = None
         self.messages: dict[tuple[str, str, str], None] = {}
         self.planned, self._done = 0.0, 0.0
+        self._ahead: dict[str, Image] = {}
 
     def scene(self, parameters: Mapping[str, float]) -> Scene:
         """The scene with these parameters."""
@@ -66,8 +67,11 @@ class Work:
     def render(
         self, parameters: Mapping[str, float], words: Mapping[str, str], seed: int, what: str
     ) -> Image:
-        """One picture. Raises RenderStopped on Ctrl-C."""
+        """One picture, or that which was made `ahead`. Raises RenderStopped on Ctrl-C."""
         cost = _rays(words)
+        if (made := self._ahead.pop(_name(parameters, words, seed), None)) is not None:
+            self._done += cost
+            return made
 
         def show(state: Any) -> None:
             if self._watch and self.planned:
@@ -80,12 +84,22 @@ class Work:
         self._say(image.messages)
         return image
 
+    def ahead(self, parameters: Mapping[str, float], words: Mapping[str, str], seed: int) -> Image:
+        """A picture that a pilot needs before its row does: it is rendered once."""
+        image = self.render(parameters, words, seed, "a pilot")
+        self._ahead[_name(parameters, words, seed)] = image
+        return image
+
     def plan(self, costs: float) -> None:
         """Begins to count: so many rays per pixel are ahead."""
         self.planned, self._done = costs, 0.0
 
     def _say(self, messages: Any) -> None:
         self.messages.update(dict.fromkeys(tuple(m) for m in messages))
+
+
+def _name(parameters: Mapping[str, float], words: Mapping[str, str], seed: int) -> str:
+    return json.dumps([sorted(parameters.items()), sorted(words.items()), seed])
 
 
 def _rays(words: Mapping[str, str]) -> float:

@@ -14,7 +14,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from antumbra._words import minus, power_of_ten
+from antumbra._words import minus, power_of_ten, written
 from antumbra.study._quantiles import t_quantile
 
 LEVEL = 0.95
@@ -45,7 +45,7 @@ class Interval(NamedTuple):
 def plus_minus(value: float, half: float) -> str:
     """`−0.499 ± 0.002`, `3.999 ± 0.014`: the error in one digit (two if it begins with 1), the value as far as that."""
     if not (math.isfinite(half) and half > 0):
-        return minus(f"{value:.4g}" if half == 0 else f"{value:.4g} ± ?")
+        return written(value, 4) + ("" if half == 0 else " ± ?")
     scale = math.floor(math.log10(max(abs(value), half)))
     if not -4 <= scale < 6:
         inner = plus_minus(value / 10.0**scale, half / 10.0**scale)

@@ -26,7 +26,8 @@ LOOK = {"estimator": "area", "viewing_rays": Pick(1, 2), "size": (24, 16)}
 
 
 def _measure(run):
-    return {"mean": mean_of([image.pixels.mean() for image in run.images("a")])}
+    mean = mean_of([image.pixels.mean() for image in run.images("a")])
+    return {"mean": mean, "again": mean}
 
 
 def _parts(run):
@@ -47,6 +48,7 @@ def _parts(run):
     rays = Sketch(24, 16)
     for row, free in enumerate((True, False)):
         rays.linked(row, Sketch(24, 16).ray((1, 1), (12 + row, 8), free))
+    wide = Table([f"quite a long head {n}" for n in range(6)], [["1"] * 6], "A wide table.")
     table = Table(["ray", "V", "pdf"], [["1", "free", "0.5"], ["2", "blocked", "0.5"]], "Two rays.", fine=[2])
     axes = Drawing('<g data-s="random"><path class="ln" d="M0 0L9 9"/></g>', 620, 440, "A line.")
     return [
@@ -54,18 +56,19 @@ def _parts(run):
         Key([Entry("var(--umbra)", "Umbra", "none", drawing, 0), Entry("#fff", "Lit", "all", always="outside")], "i"),
         Row([picture, picture, picture, two], note="Three alike."),
         Tabs("sampler", "Sampler", [Panel(w, w, [Row([picture, picture])]) for w in ("random", "owen")]),
+        wide,
         Linked("ray", picture, rays.done("Two rays."), table),
         Plot(axes, "95 %.", Table(["N", "RMSE"], [["1", "1.00"]], "Errors.", foot=["slope", "−0.5"])),
     ]  # fmt: skip
 
 
 def figure(number: int) -> Figure:
-    """A figure with every kind of stage."""
+    """A figure with every kind of stage; of the second one the answer is not proved."""
     return Figure(
         number=number,
         chapter=1,
         title=f"Made up, {number}",
-        question=Question("What is the mean?", ("small", "large"), 0),
+        question=Question("What is the mean?", ("small", "large"), 0, ("mean" if number == 1 else "again",)),
         variants=[Variant("a", builtin("pillars"), LOOK, replicates=2)],
         measure=_measure,
         stage=lambda run, measured: _parts(run),
@@ -73,7 +76,7 @@ def figure(number: int) -> Figure:
         equation=Equation([(r"x = \mark{\frac{1}{N}} \sum_{i=1}^N x_i", "x = 1/N sum of x_i")], "Marked: N."),
         claims=[
             Claim("It is small.", "mean", below=1e3, main=True),
-            Claim("It is <large>.", "mean", above=1e3),
+            Claim("It is <large>.", "again", above=1e3),
         ],
         seconds=Pick(0.5, 1.0),
     )

@@ -51,6 +51,31 @@ def test_questions_ask_and_answers_are_short():
         assert len(figure.answer.text.split(". ")) <= 3, name
 
 
+def strips(parts):
+    """All sliders of a stage, however deep."""
+    for part in parts if isinstance(parts, list) else []:
+        if part["kind"] == "strip":
+            yield part
+        yield from strips(part.get("panels") or part.get("parts"))
+
+
+# Where a slider begins: in the undisturbed state, or where nothing of the answer is seen.
+NEUTRAL = {
+    "shadows": "1.0", "regions": "1", "eclipse": "356500", "product": "0.1", "between": "0.5",
+    "self-intersection": "safe", "solid-angle": "-3", "formulations": "0.1", "area-light": "0", "light-size": "0.25",
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", catalog.names())
+def test_sliders_have_a_dozen_frames_and_begin_before_the_answer(name, folder):
+    found = json.loads((folder / "kept" / f"{name}.quick.json").read_text(encoding="utf-8"))
+    sliders = list(strips(found["stage"]))
+    assert bool(sliders) == (name in NEUTRAL)
+    for strip in sliders:
+        assert 12 <= len(strip["frames"]) <= 16
+        assert strip["frames"][strip["start"]]["value"] == NEUTRAL[name]
+
+
 # What of a slide is seen and lies outside of the screen, as text for the message.
 OUTSIDE = """() => [...document.querySelectorAll('.fig.cur *')].filter(e => {
   const looked = 'p, b, span, img, button, td, th, output, input, small, figcaption';
@@ -58,6 +83,19 @@ OUTSIDE = """() => [...document.querySelectorAll('.fig.cur *')].filter(e => {
   const b = e.getBoundingClientRect();
   return b.width && (b.right > innerWidth + 1 || b.left < -1 || b.bottom > innerHeight + 1 || b.top < -1);
 }).map(e => `${e.tagName} ${e.className} ${e.innerText || e.alt || ''}`)"""
+
+
+# Text of a slide that is seen smaller than 28 px: of drawings, their size times their scale; not what is raised.
+SMALL = """() => [...document.querySelectorAll('.fig.cur *')].filter(e => {
+  const own = [...e.childNodes].some(n => n.nodeType == 3 && n.textContent.trim());
+  if (!own || e.closest('.sr, datalist, math') || !e.checkVisibility({visibilityProperty: true})) return false;
+  const box = e.ownerSVGElement, scale = box ? box.getBoundingClientRect().width / box.viewBox.baseVal.width : 1;
+  return parseFloat(getComputedStyle(e).fontSize) * scale < 27.9;
+}).map(e => `${e.tagName} ${e.textContent}`)"""
+# Least size of the text of plots on paper [pt].
+PLOTTED = """() => Math.min(...[...document.querySelectorAll('.plot')].filter(p => p.checkVisibility()).map(p =>
+  parseFloat(getComputedStyle(p.querySelector('text')).fontSize) * 0.75
+    * p.getBoundingClientRect().width / p.viewBox.baseVal.width))"""
 
 
 @pytest.mark.parametrize("name", catalog.names())
@@ -76,10 +114,12 @@ def test_a_figure_fits_its_page_and_its_slides(name, folder, browser):
     tab.emulate_media(media="print")
     height = tab.locator(f"#{name}").bounding_box()["height"] * 25.4 / 96
     assert height <= 138, f"{height:.0f} mm on paper"
+    assert tab.evaluate(PLOTTED) >= 7.5
     tab.close()
     tab = browser.new_page(viewport={"width": 1280, "height": 720})
-    for step in range(3):
+    for step in range(4):
         tab.goto(f"{page}#slides/{name}/step={step}")
         tab.reload()
         assert tab.evaluate(OUTSIDE) == [], f"step {step} of the slide"
+        assert tab.evaluate(SMALL) == [], f"step {step} of the slide"
     tab.close()

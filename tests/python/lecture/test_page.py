@@ -122,12 +122,37 @@ def test_predict_first_then_the_number(open_page):
     # Neither plots and tables nor readouts say it before.
     assert tab.locator("#one :is(.data, .key span):visible").count() == 0
     assert tab.locator("#one output").inner_text() == "i = 1"
+    slider = tab.locator("#one input[type=range]")
+    assert slider.get_attribute("aria-valuetext") == "i = 1"
     tab.locator("#one .q button").nth(1).click()
+    assert slider.get_attribute("aria-valuetext") == "i = 1: <half>, and more"
     assert tab.locator("#one .ans").is_visible()
     assert tab.locator("#one .verdict").inner_text().startswith("Not so")
     assert not tab.locator("#two .ans").is_visible()
     tab.locator("#b-answers").click()
     assert tab.locator("#two .claims").is_visible() and address(tab).endswith("answers")
+
+
+def test_an_answer_that_the_run_does_not_support_is_not_asserted(open_page):
+    tab = open_page()
+    tab.locator("#one .q button").first.click()
+    assert tab.locator("#one .verdict").inner_text() == "Yes. The number is below."
+    for choice in tab.locator("#two .q button").all():
+        choice.click()
+        assert tab.locator("#two .verdict").inner_text() == "This run leaves it open. The number is below."
+    said = tab.locator("#two .ans p").first.inner_text()
+    assert said == "This run leaves the question open. It does not support: It is <large>."
+    assert tab.locator("#two .num1").is_visible() and tab.locator("#one .ans p").first.inner_text() != said
+
+
+def test_a_table_that_goes_on_says_so(open_page):
+    wide = "#one .scroll:has(th:nth-child(6))"
+    hint = f"getComputedStyle(document.querySelector('{wide}'), '::before').content"
+    assert "slide the table" in open_page("#/answers", (390, 844)).evaluate(hint)
+    assert open_page("#/answers").evaluate(hint) == "none"
+    phone = open_page("", (390, 844))
+    bar = "[...document.querySelectorAll('.bar nav a')].every(a => a.getBoundingClientRect().right <= innerWidth)"
+    assert phone.evaluate(bar)
 
 
 def test_slides_step_by_keyboard_and_nothing_leaves_the_screen(open_page):
@@ -136,8 +161,14 @@ def test_slides_step_by_keyboard_and_nothing_leaves_the_screen(open_page):
     assert tab.locator(seen["question"]).is_visible() and not tab.locator(seen["picture"]).is_visible()
     tab.keyboard.press(" ")
     assert tab.locator(seen["picture"]).is_visible() and not tab.locator(seen["number"]).is_visible()
+    # The readout says the value, not what it means.
+    assert tab.locator("#one output").inner_text() == "i = 1"
+    assert tab.locator("#one input[type=range]").get_attribute("aria-valuetext") == "i = 1"
     tab.keyboard.press(" ")
     assert tab.locator(seen["number"]).is_visible() and address(tab) == "#slides/one/step=2"
+    tab.keyboard.press(" ")
+    assert tab.locator("#one .eqc").is_visible() and tab.locator("#one .claims var").first.is_visible()
+    tab.keyboard.press("PageUp")
     tab.keyboard.press("PageUp")
     assert address(tab) == "#slides/one/step=1"
     tab.keyboard.press("ArrowRight")
@@ -153,6 +184,7 @@ def test_without_script_everything_is_there(open_page):
     tab = open_page(java_script_enabled=False)
     assert tab.locator("#one .frames > li:visible").count() == 3
     assert tab.locator("#one .pan:visible").count() == 2
+    assert tab.locator("#one .pn").all_inner_texts() == ["random", "owen"]
     for slot in (".ans", ".claims", ".draws svg.on"):
         assert tab.locator(f"#one {slot}").is_visible()
     assert not tab.locator("#one .slide").is_visible()
@@ -165,6 +197,7 @@ def test_print_shows_strips_and_answers(open_page):
     assert tab.locator("#one .frames > li:visible").count() == 3
     assert not tab.locator(".bar").is_visible() and not tab.locator("#one .slide").is_visible()
     assert tab.locator("#one .pan:visible").count() == 1
+    assert tab.locator("#one .pn:visible").all_inner_texts() == ["random"]
 
 
 def test_a_map_says_what_its_colours_mean(open_page):

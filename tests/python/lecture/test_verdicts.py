@@ -77,6 +77,6 @@ def test_declarations_that_ask_nothing_are_refused():
     with pytest.raises(ValueError, match="within"):
         Claim("It is so.", "x", near=1.0)
     with pytest.raises(ValueError, match="choices"):
-        Question("Which?", ["one"], 0)
+        Question("Which?", ["one"], 0, ["x"])
     with pytest.raises(TypeError):
         Figure(1, 1, "A figure without a question")  # type: ignore[call-arg]

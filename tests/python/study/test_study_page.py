@@ -37,3 +37,27 @@ def test_the_page_is_whole_at_every_width(browser, folder, width, scheme):
     assert max(ends) <= width
     assert "✗ biased" in tab.inner_text("main")
     context.close()
+
+
+def test_wide_numbers_do_not_cut_the_last_column(browser, folder):
+    tab = browser.new_page(viewport={"width": 1400, "height": 800})
+    tab.goto((folder / "index.html").as_uri())
+    # The widest that are written.
+    tab.evaluate(
+        "[...document.querySelectorAll('tbody td')].forEach(t => t.textContent = '× 0.00123 (0.00045 … 0.00345)')"
+    )
+    assert tab.evaluate(
+        "[...document.querySelectorAll('.scroll')].every(s => s.scrollWidth <= s.clientWidth)"
+    )
+    head = tab.locator(".words thead th").all_inner_texts()
+    assert head == ["variant", "slope of the variance", "slope of the noise (in the plot)", "it falls"]
+    tab.close()
+
+
+def test_no_number_has_a_programmer_s_exponent(folder):
+    import re
+
+    text = re.sub(
+        r"<style>.*?</style>|<svg.*?</svg>", "", (folder / "index.html").read_text("utf-8"), flags=re.DOTALL
+    )
+    assert not re.search(r"\d(e[+-]?\d)", re.sub(r"<[^>]*>", " ", text))

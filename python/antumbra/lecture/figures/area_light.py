@@ -31,10 +31,10 @@ VIEW = FLOOR | {"eye": (2.9, 2.3, 2.0), "look_at": (-0.2, 0.2, 0.2), "up": (0.0,
 def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
     white = run.white("floor-0.5", share=99.9)
     strip = Strip(
-        "s", "Edge s of the light, all squares at the same power", [frame(run, found, size, white) for size in SIZES], SIZES.index(0.7),
+        "s", "Edge s of the light, all squares at the same power", [frame(run, found, size, white) for size in SIZES], 0,
         ("From the side", "From below", "From outside"),
         note="Three boards hang over the receiver, their edges in line, from left to right with d₂/d₁ = 1/7, 1/3, 1. From the side, "
-        "the last one. The point light sends as much straight down, but has no cos θ′: four times the power of the others.",
+        "the last one. The point light sends as much straight down, but has no cos θ′: four times the power of the others.", tells=SIZES.index(0.7),
     )  # fmt: skip
     curves = [
         curve_of(f"d₂/d₁ = {word}", FITTED, [found[f"w{s:g}-{n}"] for s in FITTED], partial(np.multiply, r), "line: s · d₂/d₁")
@@ -56,7 +56,7 @@ FIGURE = Figure(
     number=11, chapter=3, title="A light that grows", seconds=Pick(5, 120),
     question=Question(
         "The light gets four times its area at the same power: its edge s doubles. How much wider does the penumbra become?",
-        ("as wide as before", "twice as wide", "four times as wide"), 1,
+        ("as wide as before", "twice as wide", "four times as wide"), 1, ("doubled",),
     ),
     variants=[
         Variant(f"{name}-{s}", boards_under_square(s), options)
@@ -71,9 +71,10 @@ FIGURE = Figure(
     claims=[
         Claim("The penumbra is s · d₂/d₁ wide, under every board.", "share", near=1.0, within=0.005, main=True,
               measured="{share} of it, over {widths} widths"),
+        Claim("Twice the edge, twice as wide.", "doubled", near=2.0, within=0.02, measured="{doubled} times, three boards"),
         Claim("Seven times the d₂/d₁, seven times as wide.", "boards", near=7.0, within=0.05,
               measured="{boards} times, 1 against 1/7"),
-        Claim("Without boards the floor below keeps its light but for 7.7 %.", "below", near=irradiance_under(1.0, 2.0) * 4 - 1, within=0.003,
-              measured="{below:1} from the point to s = 1; the closed form says −7.67 %"),
+        Claim("The lit floor below keeps its light but for 7.7 %.", "below", near=irradiance_under(1.0, 2.0) * 4 - 1, within=0.003,
+              measured="{below:1}; closed form −7.67 %"),
     ],
 )  # fmt: skip

@@ -55,7 +55,7 @@ FIGURE = Figure(
     question=Question(
         "A light hangs between a plane and a cylinder. A shadow ray that does not end at the light goes on until it meets something. "
         "What does the picture show?",
-        ("no difference", "a shadow on the plane, and a dark cylinder", "all is dark"), 1,
+        ("no difference", "a shadow on the plane, and a dark cylinder", "all is dark"), 1, ("width",),
     ),
     variants=[
         Variant(f"{test}{y}", builtin("plane-and-cylinder", plane=y), LOOK | {"distance_test": test}, 4 if y in (HANGS, HIDDEN) else 1)

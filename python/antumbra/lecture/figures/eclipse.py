@@ -9,7 +9,7 @@ import numpy as np
 
 from antumbra.lecture.figure import Claim, Equation, Figure, Number, Pick, Question, Variant
 from antumbra.lecture.geometry import Bodies
-from antumbra.lecture.measures.eclipse import hidden_share, tip_on_ground
+from antumbra.lecture.measures.eclipse import hidden_share, tip_in_map, tip_on_ground
 from antumbra.lecture.quantity import Quantity
 from antumbra.lecture.run import Run
 from antumbra.lecture.scenes import SceneOf, builtin
@@ -42,8 +42,16 @@ def _sky(distance: int) -> SceneOf:
 def _measure(run: Run) -> Mapping[str, Quantity]:
     turns, far = tip_on_ground(run, SKY, DISTANCES, 2 * GROUND), run.scene(_sky(FAR))
     hidden, beside = (hidden_share(run, far, SKY, km, run.pick(Pick(2**18, 2**22))) for km in (0.0, 1500.0))
+    touches, pixel = tip_in_map(run, f"ground-{TURNS}", 2 * GROUND)
     length = Quantity(turns.value - SKY.earth, turns.error, "km", "from the moon's centre")
-    return {"turns": turns, "length": length, "hidden": hidden, "beside": beside}
+    return {
+        "turns": turns,
+        "length": length,
+        "touches": touches,
+        "pixel": pixel,
+        "hidden": hidden,
+        "beside": beside,
+    }
 
 
 def _stage(run: Run, measured: Mapping[str, Quantity]) -> list[Part]:
@@ -51,14 +59,14 @@ def _stage(run: Run, measured: Mapping[str, Quantity]) -> list[Part]:
         "Radii on the ground, measured in the map / from similar triangles. In the right picture the moon is drawn grey and the sky dark blue: "
         "in nature both are as dark as each other."
     )
-    return [moon_moved(run, SKY, DISTANCES, TURNS, 2 * GROUND), regions_key("moon", (0, 1, 2, -1), note)]
+    return [moon_moved(run, SKY, DISTANCES, 2 * GROUND), regions_key("moon", (0, 1, 2, -1), note)]
 
 
 FIGURE = Figure(
     number=3, chapter=1, title="Total or annular", seconds=Pick(6, 110),
     question=Question(
         "The moon's distance goes from 356,500 to 406,700 km. From which distance on does a ring of the sun stay visible?",
-        ("370,000 km", "380,000 km", "400,000 km"), 1,
+        ("370,000 km", "380,000 km", "400,000 km"), 1, ("length", "touches"),
     ),
     variants=[Variant(f"{name}-{d}", _sky(d), LOOK | view) for d in DISTANCES for name, view in VIEWS.items()],
     measure=_measure, stage=_stage, exr=[f"space-{TURNS}"],
@@ -70,11 +78,13 @@ FIGURE = Figure(
         "where the moon's distance d less the earth's radius R⊕ = 6,371 km is ℓ.",
     ),
     claims=[
-        Claim("The umbra is 373,600 km long, as similar triangles say.", "length", near=SKY.length(TURNS), within=600.0, main=True,
-              measured="measured {length} (spread about a line), D·r/(R − r) " + f"= {SKY.length(TURNS):,.0f} km"),
+        Claim("The umbra is D·r/(R − r) long.", "length", near=SKY.length(TURNS), within=600.0, main=True,
+              measured="{length} (spread about a line)"),
+        Claim(f"At {TURNS:,} km neither umbra nor antumbra fills a pixel.", "touches", below="pixel",
+              measured="radius {touches}, pixel {pixel}"),
         Claim("At 406,700 km the moon covers 87.1 % of the sun.", "hidden", near=SKY.covered(FAR, 0.0), within=0.002,
-              measured="measured {hidden}, " + f"lens formula {100 * SKY.covered(FAR, 0.0):.2f} %"),
+              measured="{hidden}, " + f"lens formula {100 * SKY.covered(FAR, 0.0):.2f} %"),
         Claim("1,500 km beside the axis it covers 45.4 %.", "beside", near=SKY.covered(FAR, 1500.0), within=0.004,
-              measured="measured {beside}, " + f"lens formula {100 * SKY.covered(FAR, 1500.0):.2f} %"),
+              measured="{beside}, " + f"lens formula {100 * SKY.covered(FAR, 1500.0):.2f} %"),
     ],
 )  # fmt: skip

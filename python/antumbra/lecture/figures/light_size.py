@@ -15,7 +15,7 @@ from antumbra.lecture.stages import Frame, Part, Plot, Strip
 from antumbra.lecture.stages.quantities import table_of
 from antumbra.study.plot import error_curves, measured
 
-SIZES = [0.25, 0.35, 0.5, 0.7, 1.0, 1.4, 2.0, 2.8, 4.0]
+SIZES = [0.25, 0.32, 0.4, 0.5, 0.63, 0.8, 1.0, 1.25, 1.6, 2.0, 2.5, 3.2, 4.0]
 ONE = CENTRED | {"light_points": "area", "sampler": "random", "shadow_rays": 1}
 TRUTH = CENTRED | {
     "light_points": "area",
@@ -44,12 +44,12 @@ def _frame(run: Run, found: Mapping[str, Quantity], size: float, white: float) -
 def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
     white = run.white("truth-0.25")
     strip = Strip("size", "Edge of the square light, at constant power", [_frame(run, found, s, white) for s in SIZES],
-                  SIZES.index(1.0), ("one shadow ray", "many", "noise of one"))  # fmt: skip
+                  0, ("one shadow ray", "many", "noise of one"), tells=SIZES.index(1.0))  # fmt: skip
     curves = [
         measured(name, SIZES, each, fit=[name == "lit" and s <= 1 for s in SIZES]) for name, each in _squares(run).items()
     ]  # fmt: skip
     svg = error_curves(
-        curves, x_title="edge of the light [m], its power constant", y_title="noise of one ray, unshadowed light = 1",
+        curves, x_title="edge of the light [m], same power", y_title="noise of one ray, unshadowed = 1",
         chosen="penumbra", x_ticks=[0.25, 0.5, 1, 2, 4], y_ticks=[1, 1 / 3, 1 / 10, 1 / 30, 1 / 100],
         label="Noise of one shadow ray against the size of the light: lit pixels and penumbra pixels.",
     )  # fmt: skip
@@ -61,9 +61,9 @@ def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
 
 
 FIGURE = Figure(
-    number=15, chapter=4, title="How large a light", seconds=Pick(8, 60),
+    number=15, chapter=4, title="How large a light", seconds=Pick(7, 85),
     question=Question("One shadow ray per pixel. The light is made twice as large at the same power. What happens to the noise of a penumbra pixel?",
-                      ("it doubles", "it stays", "it halves"), 1),
+                      ("it doubles", "it stays", "it halves"), 1, ("penumbra-doubled",)),
     variants=[Variant(f"{kind}-{s}", builtin("pillars", light_size=s), options, count)
               for s in SIZES for kind, options, count in (("one", ONE, Pick(16, 48)), ("truth", TRUTH, 1))],
     measure=lambda run: noises(_squares(run), SIZES), stage=_stage, exr=["one-1.0"],

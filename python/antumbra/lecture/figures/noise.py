@@ -35,7 +35,7 @@ def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
 FIGURE = Figure(
     number=14, chapter=4, title="Causes of noise", seconds=Pick(7, 100),
     question=Question("Two equal windows light the pillars. A sample draws one of them, and a point on it. What makes most of its noise?",
-                      ("whether the point is seen", "which window it is on", "where on the window it lies"), 1),
+                      ("whether the point is seen", "which window it is on", "where on the window it lies"), 1, ("light",)),
     variants=[Variant("one", two_windows(), ONE, Pick(48, 128))],
     measure=shares, stage=_stage,
     answer=Number("light", "of the variance is the choice of the window, and only {visibility:1} visibility: ask both windows first."),
@@ -49,8 +49,10 @@ FIGURE = Figure(
     claims=[
         Claim("The parts add up to the variance of the rendered picture.", "adds", near=1.0, within=0.05, main=True,
               measured="rendered / sum of the parts: {adds}"),
-        Claim("A half-hidden disk has the variance of the closed form.", "half", near=0.8224670334, within=0.02,
-              measured="{half}; the closed form says 0.8225"),
-        Claim("Three quarters of that disk's variance are visibility.", "seen", near=0.75 * 0.8224670334, within=0.02, measured="{seen} of {half:v}"),
+        Claim("The choice of the window is more than half of it.", "light", above=0.5, measured="{light}"),
+        Claim("A case with a known answer, a disk light half hidden by a plate: one shadow ray has the variance of the closed form.",
+              "half", near=0.8224670334, within=0.02, measured="{half} W² m⁻⁴; the closed form says 0.8225"),
+        Claim("There, seen or not seen (V) makes three quarters of it.", "seen", near=0.75 * 0.8224670334, within=0.02,
+              measured="{seen} of {half:v} W² m⁻⁴"),
     ],
 )  # fmt: skip

@@ -50,7 +50,7 @@ def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
 FIGURE = Figure(
     number=12, chapter=4, title="Four ways to draw a point", seconds=Pick(5, 60),
     question=Question("One of four densities never draws a quarter of the light. What does its picture show?",
-                      ("more noise", "a clean picture, too dark", "dark spots"), 1),
+                      ("more noise", "a clean picture, too dark", "dark spots"), 1, ("gap", "noise-hole")),
     variants=[
         Variant("truth", SCENE, CENTRED | {"estimator": "mis", "shadow_rays": Pick(64, 512), "sampler": "owen"}, truth=True),
         # The means are judged by directions, which know nothing of points on lights.

@@ -31,7 +31,7 @@ def _measure(run: Run) -> Mapping[str, Quantity]:
     return {
         "closes": crossing(seen, [found[g].signed for g in seen], note=f"spread about a line, {len(seen)} frames"),
         "frames": Quantity(len(seen)),
-        "wide": Quantity(wide), "pixel": Quantity(pixel),
+        "wide": Quantity(wide), "pixel": Quantity(pixel), "touches": Quantity(max(found[DISKS.length][:2])),
         "axis": ends_on_axis(run.scene(receiver_behind(DISKS, DISTANCES[-1])), DISTANCES[-1], DISKS.length, 0.01),
     }  # fmt: skip
 
@@ -48,7 +48,7 @@ FIGURE = Figure(
     number=2, chapter=1, title="Where the umbra ends", seconds=Pick(5, 110),
     question=Question(
         "Move the receiver away from the occluder. How far behind it does the dark core vanish, and what is there afterwards?",
-        ("g = 2, then only penumbra", "g = 4, then points that see a ring of the light", "never: it only shrinks"), 1,
+        ("g = 2, then only penumbra", "g = 4, then points that see a ring of the light", "never: it only shrinks"), 1, ("closes", "axis"),
     ),
     variants=[Variant(f"g{g}", receiver_behind(DISKS, g), LOOK | from_above(0.98 * g, HALF)) for g in DISTANCES],
     measure=_measure, stage=_stage, exr=["g6.0"],
@@ -62,10 +62,12 @@ FIGURE = Figure(
     ),
     claims=[
         Claim("The umbra closes at 4.00.", "closes", near=DISKS.length, within=0.1, main=True,
-              measured="measured {closes} (spread, fit over {frames} frames)"),
+              measured="{closes} (spread, fit over {frames} frames)"),
         Claim("The penumbra is as wide as similar triangles say.", "wide", below="pixel",
               measured="largest difference {wide}, pixel {pixel}"),
         Claim("On its axis the umbra ends at g = 4.", "axis", near=DISKS.length, within=1e-3,
               measured="{axis}, where a ring is first seen"),
+        Claim("At g = 4 neither umbra nor antumbra fills a pixel of the map.", "touches", below="pixel",
+              measured="radius {touches}, pixel {pixel}"),
     ],
 )  # fmt: skip

@@ -43,7 +43,7 @@ FIGURE = Figure(
     question=Question(
         "A shadow ray that starts at a rounded point may be blocked by the surface that it leaves. "
         "Why do viewing rays, computed with the same numbers, not suffer?",
-        ("they are computed more exactly", "they ask what is first, not if anything is there", "some do, unseen"), 1,
+        ("they are computed more exactly", "they ask what is first, not if anything is there", "some do, unseen"), 1, ("viewing",),
     ),
     variants=[
         Variant(f"{start}-{file}-{view}", leaning_board(scale), {**RAYS, **CAMERAS[file][view], "self_intersection": option})

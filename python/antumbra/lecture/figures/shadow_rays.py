@@ -66,7 +66,7 @@ def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
 FIGURE = Figure(
     number=13, chapter=4, title="What a hundred shadow rays buy", seconds=Pick(8, 150),
     question=Question("One shadow ray leaves noise. By what factor is it smaller with 100, if they are random?",
-                      ("100", "10", "about 3"), 1),
+                      ("100", "10", "about 3"), 1, ("random",)),
     variants=[
         Variant("truth", builtin("pillars"), TRUTH, 4, truth=True),
         *(Variant(f"{sampler}-{n}", builtin("pillars"), CENTRED | {"sampler": sampler, "shadow_rays": n, "light_points": "area"},

@@ -43,7 +43,7 @@ def _stage(run: Run, measured: Mapping[str, Quantity]) -> list[Strip]:
             Frame(f"{scale}", f"distance {scale}: {off:v} and {on:v} of the pixels changed", pictures)
         )
     label = "Distance of the left ball from the eye, its size in proportion; at 1 it lies on the floor"
-    return [Strip("distance", label, frames, 5, ("V = 1 everywhere", "V as it is"))]
+    return [Strip("distance", label, frames, 0, ("V = 1 everywhere", "V as it is"))]
 
 
 FIGURE = Figure(
@@ -51,7 +51,7 @@ FIGURE = Figure(
     question=Question(
         "The left ball is slid towards the eye and made smaller, so that it always covers the same pixels. "
         "Which of the two pictures tells?",
-        ("both", "only the one with shadows", "neither"), 1,
+        ("both", "only the one with shadows", "neither"), 1, ("off", "on"),
     ),
     variants=[Variant(f"{v}-{s}", slid_ball(s), LOOK | {"shadows": v}, 2) for s in SCALES for v in ("off", "on")],
     measure=_measure, stage=_stage, exr=["off-1.0", f"on-{SCALES[-1]}"],

@@ -12,7 +12,7 @@ from antumbra.lecture.measures.solid_angle import both_ways, sum_over_patches
 from antumbra.lecture.quantity import Quantity
 from antumbra.lecture.run import Run
 from antumbra.lecture.scenes.lone_lights import ABOVE, LIGHTS, alone, omega_above
-from antumbra.lecture.sketches.solid_angle import from_the_side, sky
+from antumbra.lecture.sketches.solid_angle import from_the_side, said, sky
 from antumbra.lecture.stages import Frame, Part, Strip
 from antumbra.lecture.stages.quantities import table_of
 
@@ -32,14 +32,13 @@ def _measure(run: Run) -> Mapping[str, Quantity]:
 def _frame(run: Run, x: float) -> Frame:
     seen = sky(run.scene(alone(ABOVE)), x, run.pick(Pick(320, 560)), SHOWN, SIDE, run.seeded(7))
     exact, name, part = omega_above(x), f"x{x:+.1f}".replace(".", "-"), f"{100 * seen.found / SHOWN:.1f} %"
-    share = f"{seen.found:,} of {SHOWN:,} directions find the light, {part}"
-    patches = f"{SIDE}² patches as dots as large as their dω; the sum is {seen.total:.4f} sr."
+    alts = said(seen, x, SHOWN, SIDE)
     pictures = [
         run.picture(shown, alt, name=f"{name}-{which}", white=1.0, colour=True, tones=48)
-        for which, shown, alt in (("directions", seen.directions, share), ("area", seen.area, patches))
+        for which, shown, alt in (("directions", seen.directions, alts[0]), ("area", seen.area, alts[1]))
     ]
-    says = minus(f"x = {x:g}: ") + f"{part} found, Ω = {exact:.3f} sr, sum {seen.total:.3f} sr"
-    return Frame(f"{x:g}", says, pictures, minus(f"x = {x:g}"), f"{share}.", from_the_side(x, exact))
+    says = minus(f"x = {x:g} m: ") + f"{part} found, Ω = {exact:.3f} sr, sum {seen.total:.3f} sr"
+    return Frame(f"{x:g}", says, pictures, minus(f"x = {x:g} m"), "", from_the_side(x, exact))
 
 
 def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
@@ -47,10 +46,10 @@ def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
     floor, scene = np.linspace(-3, 3, 49), run.scene(alone(ABOVE))
     run.exr([[sum_over_patches(scene, (x, 0, z), SIDE) for x in floor] for z in floor])
     strip = Strip(
-        "x", "Receiver, x to the side of the middle of the light", [_frame(run, x) for x in PLACES], PLACES.index(0.0),
+        "x", "Receiver, x [m] to the side of the middle of the light", [_frame(run, x) for x in PLACES], 0,
         ("From the side", "Directions", "Area points"),
         note=f"The receiver’s fisheye: straight up in the middle, the horizon as the rim, rings at 30° and 60°; equal areas are equal "
-        f"solid angles. {SHOWN:,} random directions: dots find the light, crosses do not. {SIDE}² equal patches of the light: each dot is as large as its dω.",
+        f"solid angles. {SHOWN:,} random directions: dots find the light, crosses do not. {SIDE}² equal patches of the light: each dot is as large as its dω.", tells=PLACES.index(0.0),
     )  # fmt: skip
     rows = {
         n: (found[f"directions-{n}"], found[f"area-{n}"], f"{omega:.5f} sr")
@@ -65,7 +64,7 @@ def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
 
 FIGURE = Figure(
     number=9, chapter=3, title="How much of the sky is light", seconds=Pick(3, 20),
-    question=Question("A square light of 2 × 2 hangs 1 above the receiver. Which share of all directions upward finds it?", ("1/6", "1/4", "1/3", "1/2"), 2),
+    question=Question("A square light of 2 × 2 m hangs 1 m above the receiver. Which share of all directions upward finds it?", ("1/6", "1/4", "1/3", "1/2"), 2, ("share-square above",)),
     variants=[], measure=_measure, stage=_stage,
     answer=Number("share-square above", "of the directions find it: Ω = 2π/3. Points of its area, each counted with cos θ′/r², say {area-square above}."),
     equation=Equation(

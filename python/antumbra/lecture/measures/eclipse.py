@@ -22,6 +22,12 @@ def tip_on_ground(run: Run, sky: Bodies, distances: Sequence[int], width: float)
     return Quantity(found.value, found.error + rim, "km", note)
 
 
+def tip_in_map(run: Run, key: str, width: float) -> tuple[Quantity, Quantity]:
+    """Radius of the umbra or antumbra, whichever there is, in a map `width` km wide, and how wide its pixels are."""
+    found, pixels = radii_of(run, key, width), len(run.light(key))
+    return Quantity(max(found.umbra, found.antumbra), 0.0, "km"), Quantity(width / pixels, 0.0, "km")
+
+
 def hidden_share(run: Run, scene: Scene, sky: Bodies, beside: float, rays: int) -> Quantity:
     """Share of the sun that the moon hides from the ground `beside` km from the axis."""
     at = sky.on_ground(beside)

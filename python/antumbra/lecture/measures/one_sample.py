@@ -38,10 +38,10 @@ class Samples(NamedTuple):
         return mean_of((self.values > 0).mean(1), "%")
 
 
-def one_sample(scene: Scene, point: Any, count: int, seed: int, **options: Any) -> Samples:
-    """`count` random samples at a point that faces up."""
+def one_sample(scene: Scene, point: Any, count: int, seed: int, normal: Any = UP, **options: Any) -> Samples:
+    """`count` random samples at a point that faces up, or along its `normal`."""
     points = np.tile(np.asarray(point, np.float64), (count, 1))
-    found = scene.irradiance(points, UP, shadow_rays=1, sampler="random", seed=seed, **options)
+    found = scene.irradiance(points, normal, shadow_rays=1, sampler="random", seed=seed, **options)
     values = np.asarray(found, np.float64)[:, 0].reshape(GROUPS, -1)
     return Samples(values, found.seconds / count)
 

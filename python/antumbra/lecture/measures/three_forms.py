@@ -28,8 +28,9 @@ ONE: dict[str, dict[str, Any]] = {
 }
 # Between these both variances are the same; a line through their logarithms is 0.005 % off there.
 CROSSING = (1.4, 1.5)
-# From the corner that the light reaches [m].
-DISTANCES = (0.1, 0.2, 0.4, 0.8)
+# The edge of the light that reaches a corner, and how far from that edge the wall is looked at [m].
+_EDGE = 4.0
+DISTANCES = (0.1, 0.2, 0.3, 0.4, 0.6, 0.8)
 
 
 def at_the_middle(run: Run, ratios: Sequence[float]) -> dict[str, Quantity]:
@@ -59,15 +60,35 @@ def at_the_middle(run: Run, ratios: Sequence[float]) -> dict[str, Quantity]:
 
 
 def near_a_corner(run: Run) -> dict[str, Quantity]:
-    """Mean square of a point of a light that reaches a corner, its radiance 1, from `DISTANCES`; and its slope."""
+    """Mean square of a point of a light that reaches a corner, its radiance 1, from `DISTANCES`; and its slope.
+
+    corner-directions-…: that of a direction.
+    """
     scene, side = am.Scene("corner"), run.pick(Pick(128, 512))
-    scene.add_light(square_light(4.0, 0.0))
-    moments = [
-        moments_of_light_points(scene, (2.0, -d, 0.0), (-1.0, 0.0, 0.0), side, run.seeded(1))
-        for d in DISTANCES
+    scene.add_light(square_light(_EDGE, 0.0))
+    places, normal = [(_EDGE / 2, -d, 0.0) for d in DISTANCES], (-1.0, 0.0, 0.0)
+    moments = [moments_of_light_points(scene, place, normal, side, run.seeded(1)) for place in places]
+    directions = [
+        one_sample(scene, place, side**2, run.seeded(2), normal, **ONE["hemisphere"]).moment
+        for place in places
     ]
     found = {f"corner-{d}": mean_of(each) for d, each in zip(DISTANCES, moments, strict=True)}
+    found |= {f"corner-directions-{d}": each for d, each in zip(DISTANCES, directions, strict=True)}
     return found | {"corner": mean_of(np.polyfit(np.log(DISTANCES), np.log(moments), 1)[0])}
+
+
+def exact_near_a_corner(form: str, distance: ArrayLike) -> NDArray[np.float64]:
+    """Mean squares there, of a light of radiance 1.
+
+    Of a light point A ∫ (cos θ cos θ′ / r²)² dA, which is A π / (24 d²) for distances d far below the light's edge; of
+    a direction π² times the part of the hemisphere that the light fills, counted with cos θ.
+    """
+    d = np.asarray(distance, np.float64)
+    if form == "area":
+        return _EDGE**2 * np.pi / (24 * d**2)
+    far = np.hypot(d, _EDGE)
+    filled = (np.arctan(_EDGE / 2 / d) - d / far * np.arctan(_EDGE / 2 / far)) / np.pi
+    return np.asarray(np.pi**2 * filled)
 
 
 def scatter(run: Run, form: str, at: float, rays: int) -> NDArray[np.float64]:

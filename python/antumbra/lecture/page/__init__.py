@@ -15,8 +15,7 @@ HEAD = {
     "title": "Direct illumination",
     "idea": "A point is as bright as the part of the light that it can see, weighted by angle and distance. We find "
     "out by trying segments to the light, and every figure says how far its answer can be trusted.",
-    "phases": "One disk under one light, the receiver moved away step by step: the umbra shrinks, closes, and the "
-    "antumbra opens (figure 2).",
+    "phases": "One disk under one light, the receiver moved away step by step (figure 2).",
 }
 # A page of one file stays below this many bytes.
 LARGEST = 25_000_000

@@ -25,7 +25,7 @@ def plane_moved(
         "Green: the part from p to the light, t from 0 to 1. Orange: what a ray without end goes on to find; "
         "with it the plane gets a shadow of what hangs above the light."
     )
-    return Strip("plane", label, frames, heights.index(start), labels, note=note)
+    return Strip("plane", label, frames, len(heights) - 1, labels, note=note, tells=heights.index(start))
 
 
 def _frame(

@@ -17,14 +17,14 @@ ACROSS = 0.0124
 _BODIES = ("#141a2e", "#555c69", "#f2b705")
 
 
-def moon_moved(run: Run, sky: Bodies, distances: Sequence[int], turns: int, width: float) -> Strip:
+def moon_moved(run: Run, sky: Bodies, distances: Sequence[int], width: float) -> Strip:
     """Earth, ground and sun for each distance of the moon [km]: variants `space-`, `ground-` and `sky-`.
 
-    `turns`: where the umbra just touches the ground; `width`: of the ground that is seen.
+    `width`: of the ground that is seen [km].
     """
     white = 1.7 * run.white(f"space-{distances[-1]}")
     frames = [
-        _frame(run, sky, distance, radii_of(run, f"ground-{distance}", width), turns, white)
+        _frame(run, sky, distance, radii_of(run, f"ground-{distance}", width), white)
         for distance in distances
     ]
     labels = (
@@ -35,8 +35,8 @@ def moon_moved(run: Run, sky: Bodies, distances: Sequence[int], turns: int, widt
     return Strip("moon", "Distance of the moon, from centre to centre", frames, 0, labels)
 
 
-def _frame(run: Run, sky: Bodies, d: int, at: Radii, turns: int, white: float) -> Frame:
-    says, true = _says(at, d, turns), sky.umbra(d)
+def _frame(run: Run, sky: Bodies, d: int, at: Radii, white: float) -> Frame:
+    says, true = _says(at), sky.umbra(d)
     seen = run.image(f"sky-{d}").aov
     bodies = np.where(seen["emission"].max(2) > 0, 2, np.where(seen["albedo"].max(2) > 0, 1, 0))
     # Of the sun's disk, as wide as it is from there, what the map shows.
@@ -62,9 +62,8 @@ def _frame(run: Run, sky: Bodies, d: int, at: Radii, turns: int, white: float) -
     return Frame(f"{d}", f"{d:,} km: {says}", pictures, f"{d:,} km", more, facts=facts)
 
 
-def _says(at: Radii, distance: int, turns: int) -> str:
-    if distance == turns:
-        return "the umbra just touches the ground"
-    if distance < turns:
+def _says(at: Radii) -> str:
+    """What the map of the ground shows."""
+    if at.umbra:
         return f"total, umbra {2 * at.umbra:.0f} km wide"
-    return f"annular, antumbra {2 * at.antumbra:.0f} km wide"
+    return f"annular, antumbra {2 * at.antumbra:.0f} km wide" if at.antumbra else "no umbra, no antumbra"

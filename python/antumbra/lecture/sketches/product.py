@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -10,19 +11,27 @@ from antumbra._words import minus
 from antumbra.lecture.run import Run
 from antumbra.lecture.stages import Frame, Strip
 
+# Of the floor in the pictures [m].
+WIDTH = 2.4
 
-def seen_times_unshadowed(run: Run, radii: Sequence[float], start: int) -> Strip:
-    """A frame of five pictures for each radius of the light: variants `r{radius}` with both layers."""
-    label = "Radius R of the light, 2 above the floor; the occluder, of radius 0.2, hangs halfway"
+
+def seen_times_unshadowed(run: Run, radii: Sequence[float], tells: float, x: float) -> Strip:
+    """A frame of five pictures for each radius of the light: variants `r{radius}` with both layers.
+
+    `tells`: the radius that the numbers are of; `x`: the point of the floor that they are of, ringed [m].
+    """
+    label = "Radius R of the light, 2 m above the floor; the occluder, of radius 0.2 m, hangs halfway"
     labels = ("V, seen", "E, unshaded", "V · E", "true", "true / V·E − 1")
     note = (
         "In V · E and in the true picture white is the brightest unshadowed light. "
+        f"The ring: x = {x:g} m, to the right of the middle; each picture is {WIDTH:g} m wide. "
         "The last map is white where both agree, orange where there is more light than V · E, blue where less."
     )
-    return Strip("R", label, [_frame(run, radius) for radius in radii], start, labels, note=note)
+    frames = [_frame(run, radius, (0.5 + x / WIDTH, 0.5)) for radius in radii]
+    return Strip("R", label, frames, 0, labels, note=note, tells=radii.index(tells))
 
 
-def _frame(run: Run, radius: float) -> Frame:
+def _frame(run: Run, radius: float, ring: tuple[float, float]) -> Frame:
     key = f"r{radius:g}"
     seen, light, true = run.aov(key, "visible-fraction"), run.aov(key, "unshadowed-direct"), run.pixels(key)
     product, white = seen[..., None] * light, float(light.max())
@@ -38,4 +47,5 @@ def _frame(run: Run, radius: float) -> Frame:
             off, f"True over product less 1: {span}.", name=f"{key}-off", ramp="signed", low=-0.15, high=0.15, unit="%"
         ),
     ]  # fmt: skip
-    return Frame(f"{radius:g}", f"R = {radius:g}: off by {span}", pictures, short=f"R = {radius:g}")
+    ringed = [replace(picture, ring=ring) for picture in pictures]
+    return Frame(f"{radius:g}", f"R = {radius:g} m: off by {span}", ringed, short=f"R = {radius:g} m")

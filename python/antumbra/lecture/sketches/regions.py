@@ -19,7 +19,7 @@ def receiver_moved(run: Run, disks: Disks, distances: Sequence[float], width: fl
     """Side view, map and picture of the receiver at each distance g behind the occluder: variants `g{g}`."""
     label = "Receiver, distance g behind the occluder"
     labels = ("Side view", "Region of every pixel", "Picture of the receiver")
-    return Strip("g", label, [_frame(run, disks, g, width) for g in distances], 11, labels)
+    return Strip("g", label, [_frame(run, disks, g, width) for g in distances], 1, labels)
 
 
 def _frame(run: Run, disks: Disks, g: float, width: float) -> Frame:
@@ -27,8 +27,8 @@ def _frame(run: Run, disks: Disks, g: float, width: float) -> Frame:
     at, light, full = (
         radii_of(run, key, width), run.light(key), float(run.aov(key, "unshadowed-direct").max()),
     )  # fmt: skip
-    name, radius = ("umbra", at.umbra) if g < disks.length else ("antumbra", at.antumbra)
-    meaning = f"{name} radius {radius:.2f}" if g != disks.length else "the umbra closes"
+    name, radius = ("umbra", at.umbra) if at.umbra else ("antumbra", at.antumbra)
+    meaning = f"{name} radius {radius:.2f}" if radius else "no umbra, no antumbra"
     true = (max(disks.umbra(g), 0.0), disks.penumbra(g), max(-disks.umbra(g), 0.0))
     found = zip((at.umbra, at.outside, at.antumbra), true, strict=True)
     centre = light[len(light) // 2, len(light) // 2] / full

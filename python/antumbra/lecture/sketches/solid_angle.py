@@ -28,6 +28,8 @@ class Sky(NamedTuple):
     """How many directions found it."""
     total: float
     """Sum over the patches [sr]."""
+    most: float
+    """The largest dω of a patch over the smallest."""
 
 
 def sky(scene: Scene, x: float, pixels: int, shown: int, side: int, seed: int) -> Sky:
@@ -47,7 +49,13 @@ def sky(scene: Scene, x: float, pixels: int, shown: int, side: int, seed: int) -
     second.dots(toward, omega / side**2, LIGHT)
     for fisheye in (first, second):
         fisheye.rings(np.pi / 6, np.pi / 3)
-    return Sky(first.radiance(), second.radiance(), int(hits.sum()), float(omega.mean()))
+    return Sky(
+        first.radiance(),
+        second.radiance(),
+        int(hits.sum()),
+        float(omega.mean()),
+        float(omega.max() / omega.min()),
+    )
 
 
 def from_the_side(x: float, omega: float) -> Drawing:
@@ -68,9 +76,28 @@ def from_the_side(x: float, omega: float) -> Drawing:
     drawing.text(((at + patch) / 2 - 12, (_FLOOR + top) / 2 + 12), "r", fine=True)
     side = "middle" if abs(x) < 2.4 else "start" if x < 0 else "end"
     drawing.circle((at, _FLOOR), 5, INK).text((at, _FLOOR + 30), "receiver", anchor=side)
-    return drawing.text((16, 34), f"Ω = {omega:.3f} sr").done(
-        f"Side view: the receiver at x = {x:g} under the light, which fills {omega:.3f} sr of its hemisphere."
+    return drawing.text((16, 34), f"Ω = {omega:.3f} sr", tells=True).done(
+        f"Side view: a light 2 m wide hangs 1 m above the floor; the receiver lies {_aside(x)} its middle. From there "
+        f"the light fills {omega:.3f} of the {2 * np.pi:.3f} sr of the hemisphere."
     )
+
+
+def said(seen: Sky, x: float, shown: int, side: int) -> tuple[str, str]:
+    """What the two fisheyes show, in sentences."""
+    part, place = f"{100 * seen.found / shown:.1f} %", _aside(x)
+    patches = (
+        "all alike" if seen.most < 1.05 else f"the nearest {seen.most:.3g} times as large as the farthest"
+    )
+    return (
+        f"The whole sky of a receiver {place} the middle of the light, as a disk. Of {shown:,} random directions "
+        f"{seen.found:,} meet the light ({part}); the others go into the dark.",
+        f"The same sky, the light cut into {side}² equal patches. Each is a dot as large as its dω, {patches}; "
+        f"they sum up to {seen.total:.4f} sr.",
+    )
+
+
+def _aside(x: float) -> str:
+    return "straight below" if x == 0 else f"{abs(x):g} m to the {'left' if x < 0 else 'right'} of"
 
 
 def _arc(at: float, first: float, last: float) -> list[Point]:

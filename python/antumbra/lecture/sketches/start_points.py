@@ -26,7 +26,7 @@ def starts_compared(
         "Contact: the shadow at the foot of the board."
     )
     return [
-        Strip("start", label, frames, 0, [f"in {file}" for file in files]),
+        Strip("start", label, frames, len(frames) - 1, [f"in {file}" for file in files]),
         Key(entries, "start", note),
     ]
 

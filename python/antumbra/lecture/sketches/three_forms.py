@@ -9,11 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from antumbra.lecture.measures.maps import box_mean
-from antumbra.lecture.measures.three_forms import DISTANCES, FORMS, exact, scatter
+from antumbra.lecture.measures.three_forms import DISTANCES, FORMS, exact, exact_near_a_corner, scatter
 from antumbra.lecture.quantity import Quantity
 from antumbra.lecture.run import Run
 from antumbra.lecture.scenes import low_room
-from antumbra.lecture.stages import Frame, Picture, Plot, Table
+from antumbra.lecture.stages import Frame, Picture, Plot
 from antumbra.lecture.stages.quantities import curve_of, table_of
 from antumbra.study.plot import error_curves
 
@@ -100,13 +100,33 @@ def plot(found: Mapping[str, Quantity], ratios: Sequence[float], shown: Sequence
     )
 
 
-def near_a_corner(found: Mapping[str, Quantity]) -> Table:
-    """Mean square of one point of a light by the distance from it."""
-    rows = {f"{d:g}": (found[f"corner-{d}"],) for d in DISTANCES}
+def near_a_corner(found: Mapping[str, Quantity]) -> Plot:
+    """Mean square of one point of a light, and of one direction, against the distance from the light."""
+    of = {"area": "corner-", "hemisphere": "corner-directions-"}
+    notes = {"area": "line: 2π / (3 d²)", "hemisphere": "line: closed form"}
+    curves = [
+        curve_of(
+            FORMS[form],
+            DISTANCES,
+            [found[f"{name}{d}"] for d in DISTANCES],
+            partial(exact_near_a_corner, form),
+            notes[form],
+        )
+        for form, name in of.items()
+    ]
+    drawing = error_curves(
+        curves,
+        x_title="distance d from the light [m]",
+        y_title="mean square of one sample [W² m⁻⁴]",
+        label=f"Towards the corner the mean square of a point of the light grows as the power {found['corner']:1} "
+        "of the distance, that of a direction stays below 5.",
+    )
+    rows = {f"{d:g}": [found[f"{name}{d}"] for name in of.values()] for d in DISTANCES}
     note = (
         "A wall meets a square light of 4 × 4 m and radiance 1 at a right angle; the receiver lies on the wall. One "
         "point of the light: (Lₑ cos θ cos θ′ / r² · A)². Half the distance, four times the square, while the "
-        "irradiance stays below π/2."
+        "irradiance stays below π/2. A direction brings π or nothing, wherever the receiver lies."
     )
-    head = ("distance from the light [m]", "mean square of one sample [W² m⁻⁴]")
-    return table_of(head, rows, "Mean square of one point of a light near a corner.", note=note)
+    head = ("d [m]", *(FORMS[form] for form in of))
+    table = table_of(head, rows, "Mean square of one sample near a corner.", note=note)
+    return Plot(drawing, "Marks: measured, 95 % of 8 and of 32 groups.", table)

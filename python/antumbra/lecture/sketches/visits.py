@@ -54,12 +54,10 @@ def table_of_visits(measured: Mapping[str, Quantity], scenes: Sequence[str], not
             share, saved = (
                 f"{100 * measured[f'{name}_{what}_{word}'].value:.1f} %" for what in ("share", "saved")
             )
-            rates = [
-                " ± ".join(measured[f"{name}_{kind}_rate_{word}"].number(1)) for kind in ("any", "closest")
-            ]
-            rows.append([f"{name}, {word}", share, *counts, saved, *rates])
+            rate, faster = (measured[f"{name}_{what}_{word}"] for what in ("any_rate", "faster"))
+            rows.append([f"{name}, {word}", share, *counts, saved, written(rate.value, 2), f"{faster:r}"])
     head = (
         "rays", "share", "boxes, any hit", "closest hit", "triangles, any hit", "closest hit", "saved",
-        "M rays/s, any hit", "closest hit",
+        "M rays/s, any hit", "rays/s over closest hit",
     )  # fmt: skip
-    return Table(head, rows, "Boxes and triangles visited by a shadow ray", fine=(1, 4, 5, 7, 8), note=note)
+    return Table(head, rows, "Boxes and triangles visited by a shadow ray", fine=(1, 4, 5, 7), note=note)

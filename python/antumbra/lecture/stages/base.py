@@ -34,7 +34,8 @@ class Bar(Part):
 class Picture(Part):
     """A picture file of the page, its size in pixels, its result as a sentence (`alt`), what stands under it.
 
-    `noise`: pixels stay squares when it is enlarged; `bar`: of a map of numbers, what its colours mean.
+    `noise`: pixels stay squares when it is enlarged; `bar`: of a map of numbers, what its colours mean; `ring`: about
+    a place that is spoken of, in parts of its width and height.
     """
 
     kind = "picture"
@@ -45,6 +46,7 @@ class Picture(Part):
     caption: str = ""
     noise: bool = False
     bar: Bar | None = None
+    ring: tuple[float, float] | None = None
 
     def __post_init__(self) -> None:
         """A picture says its result in words, for those who do not see it."""

@@ -57,10 +57,19 @@ class Sketch:
         return self.line(a, b, colour=RIM, width=width + 3).line(a, b, colour=LIGHT, width=width)
 
     def text(
-        self, at: Point, words: str, *, anchor: str = "start", fine: bool = False, ink: str = INK
+        self,
+        at: Point,
+        words: str,
+        *,
+        anchor: str = "start",
+        fine: bool = False,
+        tells: bool = False,
+        ink: str = INK,
     ) -> Sketch:
-        """A label; `fine`: a second one, which a phone and a slide leave out; `ink` "" follows the theme."""
-        kind = ' class="fine"' if fine else ""
+        """A label; `fine`: a second one, which a phone and a slide leave out; `tells`: a result, hidden until the
+        question is answered; `ink` "" follows the theme.
+        """
+        kind = ' class="fine"' if fine else ' class="num"' if tells else ""
         style = f' style="fill:{ink}"' if ink else ""
         x, y = at
         return self._add(

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from antumbra.lecture.geometry import Disks
 from antumbra.lecture.stages.base import Drawing
-from antumbra.lecture.stages.drawing import ANTUMBRA, INK, LIGHT, LIT, PENUMBRA, RIM, UMBRA, Sketch
+from antumbra.lecture.stages.drawing import ANTUMBRA, LIGHT, LIT, PENUMBRA, RIM, UMBRA, Sketch
 from antumbra.lecture.stages.key import Entry, Key
 
 # Of the side view: units of the drawing per unit of the scene, and where the light stands.
@@ -85,5 +85,5 @@ def _face(shift: float, covered: float, alt: str) -> Drawing:
     """A light of radius 17 behind a disk."""
     sketch = Sketch(52, 52).circle((26, 26), 17, LIGHT)
     if covered:
-        sketch.circle((26 + shift, 26), covered, UMBRA if covered < 99 else INK)
+        sketch.circle((26 + shift, 26), covered, UMBRA, stroke="var(--soft)")
     return sketch.circle((26, 26), 17, "none", stroke=RIM, dash="2 2").done(alt)

@@ -30,7 +30,8 @@ class Frame(Part):
 class Strip(Part):
     """12–16 frames: `key` names the value in the address, `label` the slider, `labels` what stands over the columns.
 
-    `start`: the frame that is seen first; six frames are printed.
+    `start`: the frame that is seen first, which gives no answer away; six frames are printed, that among them which
+    `tells` what the numbers are of (−1: none in particular).
     """
 
     kind = "strip"
@@ -40,6 +41,7 @@ class Strip(Part):
     start: int = 0
     labels: Sequence[str] = ()
     note: str = ""
+    tells: int = -1
 
     def __post_init__(self) -> None:
         """All frames have the same columns, and the values differ."""
