@@ -87,7 +87,7 @@ VERB = Verb(
         Option("--reference-error", group="Study", metavar="FILE",
                help="the standard errors of a reference that is a file"),
         Option("--reference-rays", group="Study", metavar="N", type=click.IntRange(min=1),
-               help="viewing rays of a rendered reference, over 8 seeds (default: about as many as all variants take)"),
+               help="viewing rays of a rendered reference, over 8 seeds (default: until its own error is small)"),
         Option("--budget", group="Study", metavar="rays=N|seconds=T",
                help="let all variants spend the same, per pixel or per picture; more than one, joined by commas"),
         Option("--seeds", group="Study", metavar="K", type=int, default=8, help="renders of each variant [8]"),

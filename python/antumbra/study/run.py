@@ -45,8 +45,9 @@ def run(
 
     `reference`: a picture's file (`reference_error`: one with its standard errors), an (H, W, 3) array, or the name
     of an estimator, best of a kind that is not varied. It is rendered with `reference_rays` viewing rays over 8 seeds
-    (default: about as many as all variants take). None chooses an estimator, apart from those varied if one sees the
-    light well (short pilots find out), else with a warning. Its own noise is taken off.
+    (default: as many as all variants take, or more, until pilots find its own error small). None chooses an estimator,
+    apart from those varied if one sees the light well (short pilots find out), else with a warning. Its own noise is
+    taken off, and told. What a Mitsuba file asks for holds where neither `vary` nor `options` says something else.
 
     `folder`: where results.csv, results.json and index.html go; rows that an earlier, stopped run of the same study
     left there are kept. `progress` is called with a `Step`. `command`: how this was called, for the page.

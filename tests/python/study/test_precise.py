@@ -48,7 +48,14 @@ def test_what_is_said_stands_above_what_a_file_asks_for(asking):
 
 
 def test_the_own_error_of_a_named_reference_is_small_and_stated():
-    given = {"estimator": "area", "sampler": "owen", "light_points": "area", "size": (16, 12), "seeds": 4}
+    given = {
+        "estimator": "area",
+        "sampler": "owen",
+        "light_points": "area",
+        "size": (16, 12),
+        "seeds": 4,
+        "parameters": {"light_size": 4.0},
+    }
     found = am.study.run(
         "pillars", vary={"shadow_rays": [4, 16]}, viewing_rays=1, reference="hemisphere", **given
     )
