@@ -64,7 +64,8 @@ class Pieces:
         (N, 3), `pdf` (N,): p(light) · p(ω_i) in solid angle at the receiver [1/sr], `cos_light` |cos θ′| (N,) and
         `light` (N,), its number. The density over the light's area is `pdf_area` = pdf · cos θ′ / r².
         Light that arrives = f · radiance · cos θ / pdf, if the segment to the target is free. Where no light can
-        reach, radiance is 0 and pdf is 1; lights without size have p(light) as pdf and their irradiance as radiance.
+        reach, radiance is 0, pdf and distance are 1; lights without size have p(light) as pdf and their irradiance as
+        radiance.
         Options: `lights` (how one is chosen: "uniform", "power", "contribution") and `light_points`.
         """
         if u is None:

@@ -239,5 +239,9 @@ class Kind(NamedTuple):
 
 KINDS = {
     "light": Kind(_LIT, RHO, ("pillars", "cornell-box"), "mis", _NO_LAMP),
+    # Light that comes from surfaces alone: what the area form sees.
+    "lamps": Kind(
+        [case for case in _LIT if case.name != "furnace"], RHO, ("pillars", "cornell-box"), "mis", _NO_LAMP
+    ),
     "occlusion": Kind(_OCCLUDED, 1.0, ("pillars",), "ambient-occlusion", _NO_OPENING),
 }

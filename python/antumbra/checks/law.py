@@ -37,7 +37,7 @@ def followed(lamps: Sequence[Lamp], shares: Sequence[float], errors: Sequence[fl
     right = np.array([falls_as(lamp, 1, 1, 2) for lamp in lamps])
     share = np.asarray(shares)
     best: tuple[float, Law] | None = None
-    for a, b, c in itertools.product((0, 1, 2), (0, 1, 2), (0, 2, 4)):
+    for a, b, c in itertools.product(range(5), (0, 1, 2), (0, 2, 4)):
         law = np.array([falls_as(lamp, a, b, c) for lamp in lamps]) / right
         error = np.hypot(np.asarray(errors), _SUM * np.maximum(share, law))
         weight = law**2 / error**2
@@ -67,6 +67,8 @@ _SOLID_ANGLE = "cos θ′/r² comes twice: a density in solid angle is taken for
 _TERMS = {
     (0, 0): "cos θ at the receiver is missing",
     (0, 2): "cos θ at the receiver comes twice",
+    (0, 3): "cos θ at the receiver comes three times",
+    (0, 4): "cos θ at the receiver comes four times",
     (1, 0): "cos θ′ at the light is missing",
     (1, 2): "cos θ′ at the light comes twice",
     (2, 0): "1/r² is missing",

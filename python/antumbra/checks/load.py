@@ -14,8 +14,8 @@ from antumbra.errors import SceneError
 from antumbra.own import Estimator
 
 
-def load(path: str, name: str | None = None) -> tuple[Estimator, str]:
-    """The estimator of a Python file, and its kind: what the file's `KIND` says, else "light".
+def load(path: str, name: str | None = None) -> tuple[Estimator, dict[str, Any]]:
+    """The estimator of a Python file, and what the file's `KIND` and `NOISE` say: options of `check`.
 
     The function called `name`, or `estimator`, or the only one of the file that takes (scene, at, u) and whose name
     does not begin with `_`. Runs the file.
@@ -37,7 +37,8 @@ def load(path: str, name: str | None = None) -> tuple[Estimator, str]:
             f"{listed}. Name one with --function." if public else "def estimator(scene, at, u): … is needed."
         )
         raise SceneError(what, file=path, hint=hint)
-    return known[chosen], str(getattr(module, "KIND", "light"))
+    options = {key.lower(): getattr(module, key) for key in ("KIND", "NOISE") if hasattr(module, key)}
+    return known[chosen], options
 
 
 def _run(path: str) -> ModuleType:

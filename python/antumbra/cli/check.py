@@ -22,10 +22,10 @@ def run(file: str, function: str | None, seed: int, json: bool, quiet: bool, ver
 
     if not quiet:
         _say.messages(file, [("note", "", "its code is run as it stands")])
-    estimator, kind = load(file, function)
+    estimator, options = load(file, function)
     show = sys.stderr.isatty() and not quiet
     try:
-        report = check(estimator, kind=kind, seed=seed, progress=_line if show else None)
+        report = check(estimator, seed=seed, progress=_line if show else None, **options)
     except (Exception, SystemExit) as problem:
         raise failed(file, problem) from problem
     finally:

@@ -36,6 +36,7 @@ def run(
     quiet: bool,
     verbose: bool,
     list_: bool = False,
+    exercises: bool = False,
 ) -> int:
     """Render the lecture: each FIGURE (all without names; --list names them) with its question, pictures, number and
     claims, on one page.
@@ -45,6 +46,8 @@ def run(
     from antumbra.lecture import catalog
     from antumbra.lecture.make import Lecture
 
+    if exercises:
+        return _exercises(Path(output))
     if list_:
         print(_listed(catalog.chosen(figure)))
         return 0
@@ -96,6 +99,12 @@ VERB = Verb(
             group="Teaching",
             is_flag=True,
             help="only name the figures: number, title, seconds (coarse, full)",
+        ),
+        Option(
+            "--exercises",
+            group="Teaching",
+            is_flag=True,
+            help="instead of the page: eight files of Python, each with a gap to fill",
         ),
         Option(
             "--quick",
@@ -170,6 +179,19 @@ class _Failed:
         self._bar.say(f"error: {name} failed and is left out ({what})")
         if self._verbose:
             self._bar.say("".join(traceback.format_exception(problem)).rstrip())
+
+
+def _exercises(folder: Path) -> int:
+    from antumbra.lecture import exercises
+
+    try:
+        written = exercises.write(folder)
+    except OSError as problem:
+        raise click.UsageError(f"{folder} cannot be written ({problem.strerror or problem})") from problem
+    first, kept = exercises.names()[0], len(exercises.names()) - len(written)
+    left = f" · {kept} were there and are kept" if kept else ""
+    print(f"{folder}/   {_say.some(len(written), 'exercise')}{left} · next: antumbra check {folder}/{first}")
+    return 0
 
 
 def _listed(figures: Mapping[str, Figure]) -> str:

@@ -35,11 +35,11 @@ pub struct LightDraw {
 }
 
 impl LightDraw {
-    /// No light can reach.
+    /// No light can reach: nothing arrives, and nothing is divided by 0.
     pub const NONE: LightDraw = LightDraw {
         direction: [0.0; 3],
         target: [0.0; 3],
-        distance: 0.0,
+        distance: 1.0,
         radiance: [0.0; 3],
         pdf: 1.0,
         cos_light: 1.0,
