@@ -41,7 +41,7 @@ LINES = {
     ),
     "5_own_pdf.py": (
         "pdf = 3 * z**2 / (2 * np.pi)",
-        {"pdf = z / np.pi": "comes twice", "pdf = z**2": "all light is 0.4"},
+        {"pdf = z / np.pi": "comes twice", "pdf = z**2": "all light"},
         "comes three times",
     ),
     "6_stratify.py": (
