@@ -2,6 +2,7 @@
 //!
 //! `cargo bench --profile demo -p antumbra-trace --bench kernels [-- FILTER]`
 
+#[allow(dead_code, reason = "the race against Embree uses more of it")]
 #[path = "embree/rays.rs"]
 mod rays;
 #[path = "embree/scenes.rs"]

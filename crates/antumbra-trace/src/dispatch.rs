@@ -3,7 +3,7 @@
 use fearless_simd::{Simd, dispatch};
 
 use crate::level::SimdLevel;
-use crate::traverse::{Asking, CHUNK, Desk, Lines, Masks, Opaque, Ready};
+use crate::traverse::{Asking, CHUNK, Desk, Lines, Masks, Opaque, Room, Ways};
 use crate::walk;
 use crate::world::World;
 use crate::{Bits, Hits, Passes, Segments, Visibility};
@@ -18,6 +18,12 @@ impl World {
     /// Asks at another SIMD level from now on; at the best one if this machine lacks it.
     pub fn set_level(&mut self, level: SimdLevel) {
         self.level = level;
+    }
+
+    /// Answers in these ways from now on: the same answers.
+    #[doc(hidden)]
+    pub fn set_ways(&mut self, ways: Ways) {
+        self.ways = ways;
     }
 
     /// The same world, in which hits on masked instances are asked back. Without masks it costs nothing.
@@ -66,14 +72,15 @@ impl<P: Passes> Visibility for Masked<'_, P> {
 fn occluded<S: Simd>(simd: S, world: &World, segments: &Segments<'_>, masks: &impl Masks, out: &mut Bits) {
     out.reset(segments.len());
     let lines = Lines::of(segments);
-    let mut ready = Ready::EMPTY;
+    let mut room = Room::new(world.ways, &world.triangles);
     for from in (0..segments.len()).step_by(CHUNK) {
         let count = CHUNK.min(segments.len() - from);
-        let answers = walk::occluded(simd, world, (segments, &lines), (from, count), masks, &mut ready);
+        let answers = walk::occluded(simd, world, (segments, &lines), (from, count), masks, &mut room);
         for (k, word) in answers.into_iter().take(count.div_ceil(64)).enumerate() {
             out.set_word(from / 64 + k, word);
         }
     }
+    room.leave();
 }
 
 #[inline(always)]

@@ -29,6 +29,8 @@ pub use draft::WorldError;
 pub use geometry::{Geometry, Instance, NO_PRIM, PrimId, Shape, Triangles};
 pub use level::SimdLevel;
 pub use passes::Passes;
+#[doc(hidden)]
+pub use traverse::Ways;
 pub use world::{TreeStats, World};
 
 /// Which segments are blocked, what a ray meets first.

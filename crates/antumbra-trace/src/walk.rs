@@ -6,7 +6,7 @@ use crate::law::Line;
 use crate::object::Object;
 use crate::traverse::{
     Answers, AnyTriangle, Ask, Best, CHUNK, Chunk, Count, Desk, ExactTriangles, FastLine, Lines, Masks,
-    NearestTriangle, NotCounted, Ready, ShapeTree, ShapeVisit, TriangleTree, VisitAny, VisitNearest, any_hit,
+    NearestTriangle, NotCounted, Room, ShapeTree, ShapeVisit, TriangleTree, VisitAny, VisitNearest, any_hit,
     any_hit_exact, nearest_hit, nearest_hit_exact,
 };
 use crate::world::World;
@@ -20,12 +20,12 @@ pub(crate) fn occluded<S: Simd, M: Masks>(
     (segments, lines): (&Segments<'_>, &Lines<'_>),
     (from, count): (usize, usize),
     masks: &M,
-    ready: &mut Ready,
+    room: &mut Room,
 ) -> Answers {
     let mut answers = Answers::default();
     if !world.triangles.tree.is_empty() {
         let chunk = Chunk { of: &world.triangles, segments, lines, masks, from, count };
-        answers = chunk.blocked(simd, ready, |i, line| {
+        answers = chunk.blocked(simd, room, |i, line| {
             simd.vectorize(
                 #[inline(always)]
                 || {

@@ -5,7 +5,7 @@ use crate::draft::{Draft, WorldError, check};
 use crate::level::SimdLevel;
 use crate::object::Object;
 use crate::place::PlaceTree;
-use crate::traverse::{ShapeTree, TriangleTree};
+use crate::traverse::{ShapeTree, TriangleTree, Ways};
 use crate::{Geometry, Instance, NO_PRIM, PrimId};
 
 /// What a tree is made of.
@@ -41,6 +41,7 @@ pub struct World {
     /// Instances with a transform.
     pub(crate) places: PlaceTree,
     pub(crate) level: SimdLevel,
+    pub(crate) ways: Ways,
 }
 
 impl World {
@@ -65,6 +66,7 @@ impl World {
                 objects,
                 places,
                 level: SimdLevel::Auto,
+                ways: Ways::Measured,
                 geometries,
                 instances,
                 base,

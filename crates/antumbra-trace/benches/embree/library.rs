@@ -5,6 +5,8 @@ use std::sync::atomic::{AtomicI32, AtomicIsize, Ordering};
 
 use antumbra_trace::{Segments, TO_POINT, Triangles};
 
+use crate::packets::{self, Arguments, Mode, Packet};
+
 unsafe extern "C" {
     fn dlopen(file: *const c_char, flags: c_int) -> *mut c_void;
     fn clock_gettime(clock: c_int, time: *mut Time) -> c_int;
@@ -107,7 +109,9 @@ functions! {
     rtcReleaseGeometry: fn(Ptr);
     rtcCommitScene: fn(Ptr);
     rtcReleaseScene: fn(Ptr);
-    rtcOccluded1: fn(Ptr, *mut RayHit, Ptr);
+    rtcOccluded1: fn(Ptr, *mut RayHit, *mut Arguments);
+    rtcOccluded8: fn(*const i32, Ptr, *mut Packet<8>, *mut Arguments);
+    rtcOccluded16: fn(*const i32, Ptr, *mut Packet<16>, *mut Arguments);
     rtcIntersect1: fn(Ptr, *mut RayHit, Ptr);
 }
 
@@ -189,7 +193,19 @@ impl Drop for Scene<'_> {
 
 impl Scene<'_> {
     /// Fills `out` with whether each entry is blocked.
-    pub fn occluded(&self, asked: &Segments<'_>, out: &mut [bool]) {
+    pub fn occluded(&self, asked: &Segments<'_>, mode: Mode, out: &mut [bool]) {
+        let call = &self.embree.call;
+        // SAFETY: the functions are Embree's, found by these names; the scene is committed.
+        unsafe {
+            match mode.width {
+                16 => packets::occluded((call.rtcOccluded16, self.scene), asked, mode.coherent, out),
+                8 => packets::occluded((call.rtcOccluded8, self.scene), asked, mode.coherent, out),
+                _ => self.one_by_one(asked, out),
+            }
+        }
+    }
+
+    fn one_by_one(&self, asked: &Segments<'_>, out: &mut [bool]) {
         let f = self.embree.call.rtcOccluded1;
         let mut ray = blank();
         for (i, blocked) in out.iter_mut().enumerate() {

@@ -9,7 +9,26 @@ pub struct Class {
     pub name: &'static str,
     /// Closest hit, not any hit.
     pub nearest: bool,
+    /// Rays of one receiver, side by side.
+    pub strata: usize,
     pub asked: SegmentBuffer,
+}
+
+/// Strata of a receiver with many rays: 4 × 4.
+const STRATA: usize = 16;
+
+impl Class {
+    /// The order in which every 16 entries are the same stratum of 16 receivers; entries that fill no such group stay.
+    pub fn transposed(&self) -> Vec<u32> {
+        let (n, group) = (self.asked.len(), 16 * self.strata);
+        (0..n)
+            .map(|i| {
+                let (first, k) = (i / group * group, i % group);
+                let whole = first + group <= n;
+                (if whole { first + k % 16 * self.strata + k / 16 } else { i }) as u32
+            })
+            .collect()
+    }
 }
 
 type V = [f32; 3];
@@ -33,7 +52,7 @@ struct Receiver {
     n: V,
 }
 
-/// Camera rays in rows of tiles of 8 × 8.
+/// Camera rays in rows of tiles of 8 × 8, each of four blocks of 4 × 4.
 fn camera(scene: &Scene) -> SegmentBuffer {
     let [eye, at] = scene.view;
     let forward = unit(sub(at, eye));
@@ -43,7 +62,8 @@ fn camera(scene: &Scene) -> SegmentBuffer {
     let mut out = SegmentBuffer::default();
     for tile in 0..(n / 8) * (n / 8) {
         for k in 0..64 {
-            let (x, y) = (tile % (n / 8) * 8 + k % 8, tile / (n / 8) * 8 + k / 8);
+            let (i, j) = (k / 16 % 2 * 4 + k % 4, k / 32 * 4 + k / 4 % 4);
+            let (x, y) = (tile % (n / 8) * 8 + i, tile / (n / 8) * 8 + j);
             let (u, v) = ((x as f32 + 0.5) / n as f32 - 0.5, 0.5 - (y as f32 + 0.5) / n as f32);
             let d = [0, 1, 2].map(|k| forward[k] + 1.2 * (u * right[k] + v * up[k]));
             out.push_ray(eye, d, f32::INFINITY, NO_PRIM, k as u32);
@@ -70,39 +90,60 @@ fn receiver(mesh: &Triangles, prim: u32, t: f64, o: V, d: V, lift: f32) -> Recei
     Receiver { p: [0, 1, 2].map(|k| o[k] + t as f32 * d[k] + n[k] * lift), n }
 }
 
-/// A direction about `n` with a cosine density.
-fn cosine(n: V, r: &mut Rng) -> V {
-    let (u, phi) = (r.unit(), r.unit() * std::f32::consts::TAU);
-    let s = u.sqrt();
+/// A direction about `n` with a cosine density, from stratum k of 4 × 4.
+fn cosine(n: V, k: usize, r: &mut Rng) -> V {
+    let [u, v] = stratum(k, r);
+    let (s, phi) = (u.sqrt(), v * std::f32::consts::TAU);
     let t = unit(cross(n, if n[0].abs() < 0.6 { [1.0, 0.0, 0.0] } else { [0.0, 1.0, 0.0] }));
     let b = cross(n, t);
     let (x, y, z) = (s * libm::cosf(phi), s * libm::sinf(phi), (1.0 - u).max(1e-6).sqrt());
     [0, 1, 2].map(|k| x * t[k] + y * b[k] + z * n[k])
 }
 
-/// All classes of a scene.
+/// A point of the unit square in stratum k of 4 × 4.
+fn stratum(k: usize, r: &mut Rng) -> [f32; 2] {
+    [(k % 4) as f32, (k / 4 % 4) as f32].map(|cell| (cell + r.unit()) / 4.0)
+}
+
+/// All classes of a scene; those with many rays a receiver ask for every fourth tile.
 pub fn classes(scene: &Scene, world: &World) -> Vec<Class> {
     let camera = camera(scene);
     let receivers = receivers(scene, world, &camera);
+    let few: Vec<&Receiver> = receivers.chunks(64).step_by(4).flatten().collect();
+    let all: Vec<&Receiver> = receivers.iter().collect();
     let mut r = Rng(11);
-    let (mut area, mut ambient, mut near, mut sun, mut bounce) = Default::default();
-    let all: &mut [&mut SegmentBuffer; 5] = &mut [&mut area, &mut ambient, &mut near, &mut sun, &mut bounce];
     let (centre, half) = scene.light;
-    for (i, at) in receivers.iter().enumerate() {
-        let q = [centre[0] + r.range(-half, half), centre[1], centre[2] + r.range(-half, half)];
-        all[0].push_ray(at.p, sub(q, at.p), 1.0, NO_PRIM, i as u32);
-        all[1].push_ray(at.p, cosine(at.n, &mut r), f32::INFINITY, NO_PRIM, i as u32);
-        all[2].push_ray(at.p, cosine(at.n, &mut r), half, NO_PRIM, i as u32);
-        all[3].push_ray(at.p, [0.4, 0.8, 0.3], f32::INFINITY, NO_PRIM, i as u32);
-        all[4].push_ray(at.p, cosine(at.n, &mut r), f32::INFINITY, NO_PRIM, i as u32);
-    }
-    let class = |name, nearest, asked| Class { name, nearest, asked };
-    vec![
-        class("area light", false, area),
-        class("ambient", false, ambient),
-        class("ambient, short", false, near),
-        class("sun", false, sun),
-        class("camera", true, camera),
-        class("bounce", true, bounce),
-    ]
+    let infinity = f32::INFINITY;
+    let mut light = |at: &Receiver, k: usize, r: &mut Rng| {
+        let [u, v] = stratum(k, r);
+        let q = [centre[0] + half * (2.0 * u - 1.0), centre[1], centre[2] + half * (2.0 * v - 1.0)];
+        (sub(q, at.p), 1.0)
+    };
+    let mut made =
+        |name, of: &[&Receiver], strata, ray: &mut dyn FnMut(&Receiver, usize, &mut Rng) -> (V, f32)| {
+            let mut asked = SegmentBuffer::default();
+            for at in of {
+                for k in 0..strata {
+                    // One ray a receiver takes any stratum.
+                    let stratum = if strata == 1 { (r.unit() * STRATA as f32) as usize } else { k };
+                    let (d, reach) = ray(at, stratum, &mut r);
+                    asked.push_ray(at.p, d, reach, NO_PRIM, (asked.len()) as u32);
+                }
+            }
+            Class { name, nearest: false, strata, asked }
+        };
+    let mut out = vec![
+        made("area light", &all, 1, &mut light),
+        made("area light × 16", &few, STRATA, &mut light),
+        made("point light", &all, 1, &mut |at, _, _| (sub(centre, at.p), 1.0)),
+        made("sun", &all, 1, &mut |_, _, _| ([0.4, 0.8, 0.3], infinity)),
+        made("ambient", &all, 1, &mut |at, k, r| (cosine(at.n, k, r), infinity)),
+        made("ambient × 16", &few, STRATA, &mut |at, k, r| (cosine(at.n, k, r), infinity)),
+        made("ambient, short", &all, 1, &mut |at, k, r| (cosine(at.n, k, r), half)),
+        made("ambient, short × 16", &few, STRATA, &mut |at, k, r| (cosine(at.n, k, r), half)),
+        made("bounce", &all, 1, &mut |at, k, r| (cosine(at.n, k, r), infinity)),
+    ];
+    out.last_mut().into_iter().for_each(|bounce| bounce.nearest = true);
+    out.push(Class { name: "camera", nearest: true, strata: 1, asked: camera });
+    out
 }

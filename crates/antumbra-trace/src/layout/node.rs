@@ -100,6 +100,12 @@ impl Row {
     /// Lower x.
     pub const FIRST: Row = Row(0);
 
+    /// The lower or upper planes of `axis` (0, 1, 2).
+    #[inline(always)]
+    pub const fn plane(axis: usize, upper: bool) -> Row {
+        Row(((axis % 3 + 3 * upper as usize) * WIDTH) as u32)
+    }
+
     /// The rows of near and far planes on `axis` (0, 1, 2) of eight lines with the direction components `r`.
     #[inline(always)]
     pub fn pairs<S: Simd>(simd: S, r: f32x8<S>, axis: usize) -> [[Row; WIDTH]; 2] {

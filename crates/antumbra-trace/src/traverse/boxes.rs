@@ -68,22 +68,22 @@ pub(crate) fn prefetch<T>(of: &[T], i: usize) {
 }
 
 /// Every node on the way down leaves at most seven children behind.
-const STACK: usize = MAX_DEPTH * (WIDTH - 1) + 1;
+pub(super) const STACK: usize = MAX_DEPTH * (WIDTH - 1) + 1;
 
 /// A stack that is not cleared. Holds at most `N` elements: the pushes are bounded by the depth of the tree.
-struct Stack<T: Copy, const N: usize> {
+pub(super) struct Stack<T: Copy, const N: usize> {
     slots: [MaybeUninit<T>; N],
     len: usize,
 }
 
 impl<T: Copy, const N: usize> Stack<T, N> {
     #[inline(always)]
-    fn new() -> Stack<T, N> {
+    pub fn new() -> Stack<T, N> {
         Stack { slots: [const { MaybeUninit::uninit() }; N], len: 0 }
     }
 
     #[inline(always)]
-    fn push(&mut self, value: T) {
+    pub fn push(&mut self, value: T) {
         // Bounds are checked here, so `len` ≤ N always.
         self.slots[self.len] = MaybeUninit::new(value);
         self.len += 1;
@@ -98,7 +98,7 @@ impl<T: Copy, const N: usize> Stack<T, N> {
     }
 
     #[inline(always)]
-    fn pop(&mut self) -> Option<T> {
+    pub fn pop(&mut self) -> Option<T> {
         self.len = self.len.checked_sub(1)?;
         // SAFETY: slots[0 .. len] were written by `push`: it alone raises `len`, by one, after writing slots[len];
         // here `len` was lowered by one, so slots[len] is one of them. T is Copy: nothing is dropped twice.

@@ -4,8 +4,8 @@ use fearless_simd::Simd;
 
 use super::ask::{Ask, Best, Masks};
 use super::boxes::nearest_hit_below;
+use super::chunk::Chunk;
 use super::eight::Pairs;
-use super::flight::Chunk;
 use super::ready::{CHUNK, Enters, Lot, Ready};
 use super::triangles::{NearestTriangle, offer};
 use crate::layout::WIDTH;
@@ -33,7 +33,7 @@ impl<M: Masks> Chunk<'_, M> {
         alone: impl Fn(&Ask<'_, M>, &mut Best),
     ) {
         let nodes = &self.of.tree.nodes;
-        let tree = (self.lines, &self.of.limits, &nodes[0]);
+        let tree = (self.lines, &self.of.limits, Some(&nodes[0]));
         let [live, wild] = desk.ready.take(simd, tree, (self.from, self.count), Some(&mut desk.enters));
         for i in entries(&wild) {
             alone(&self.ask(i), &mut bests[i]);

@@ -9,7 +9,7 @@ use crate::layout::{TriangleBlock, WIDTH};
 /// 2⁻²⁴, half a unit in the last place of 1.
 pub(crate) const U: f32 = 1.0 / 16_777_216.0;
 /// 2⁻¹²⁰: covers what underflows.
-const TINY: f32 = f32::from_bits(7 << 23);
+pub(super) const TINY: f32 = f32::from_bits(7 << 23);
 
 /// A line made ready for triangles.
 #[derive(Clone, Copy)]
@@ -207,6 +207,10 @@ impl<S: Simd> Along<S> {
 /// 2⁻²⁰
 const SLACK: f32 = 1.0 / 1_048_576.0;
 
+#[cfg(test)]
+#[allow(dead_code, reason = "shared with the attacks on the law, which use more of it")]
+#[path = "../../tests/attack/rng.rs"]
+pub(super) mod rng;
 #[cfg(test)]
 #[path = "filter_tests.rs"]
 mod tests;

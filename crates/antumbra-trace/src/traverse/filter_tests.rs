@@ -8,10 +8,7 @@ use crate::law::{self, Line};
 use crate::level::SimdLevel;
 use crate::traverse::ray::Limits;
 
-#[allow(dead_code, reason = "shared with the attacks on the law, which use more of it")]
-#[path = "../../tests/attack/rng.rs"]
-mod rng;
-use rng::{Rng, amount, mix, to_f32, to_f64};
+use super::rng::{Rng, amount, mix, to_f32, to_f64};
 
 /// Eight triangles and a line that is hard for them.
 struct Case {

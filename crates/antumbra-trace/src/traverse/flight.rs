@@ -5,12 +5,11 @@
 
 use fearless_simd::{Level, Simd, mask32x8, prelude::*, u32x8};
 
-use super::ask::{Ask, Masks};
-use super::filter::filter;
-use super::ray::{FastLine, Lines};
+use super::ask::Masks;
+use super::chunk::Chunk;
+use super::ray::FastLine;
 use super::ready::{CHUNK, Lot, Ready};
-use super::triangles::{TriangleTree, blocks};
-use crate::Segments;
+use super::rules::Turns;
 use crate::layout::{Child, Node, TriangleBlock, WIDTH};
 
 /// Lines in flight.
@@ -21,65 +20,6 @@ const ROOM: usize = 64;
 
 /// Answers for one chunk, one bit an entry.
 pub(crate) type Answers = [u64; CHUNK / 64];
-
-/// Entries of a batch that are answered together.
-pub(crate) struct Chunk<'a, M> {
-    pub of: &'a TriangleTree,
-    pub segments: &'a Segments<'a>,
-    pub lines: &'a Lines<'a>,
-    pub masks: &'a M,
-    /// First entry.
-    pub from: usize,
-    /// How many; at most [`CHUNK`].
-    pub count: usize,
-}
-
-impl<M: Masks> Chunk<'_, M> {
-    /// Which entries are blocked by a triangle of world space. `alone` answers for those that cannot fly.
-    #[inline(always)]
-    pub fn blocked<S: Simd>(
-        &self,
-        simd: S,
-        ready: &mut Ready,
-        alone: impl Fn(usize, FastLine) -> bool,
-    ) -> Answers {
-        let nodes = &self.of.tree.nodes;
-        let tree = (self.lines, &self.of.limits, &nodes[0]);
-        let [live, wild] = ready.take(simd, tree, (self.from, self.count), None);
-        let mut flight = Flight {
-            chunk: self,
-            ready,
-            alone,
-            live,
-            answers: Answers::default(),
-            line: [0; FLIGHT],
-            at: [Child(0); FLIGHT],
-            top: [0; FLIGHT],
-            stacks: [[Child::leaf(0).0; ROOM]; FLIGHT],
-        };
-        let (mut inner, mut leaves) = (List::EMPTY, List::EMPTY);
-        flight.wild(&wild);
-        for k in 0..FLIGHT {
-            flight.launch(simd, k, &mut inner, &mut leaves);
-        }
-        while inner.len + leaves.len > 0 {
-            inner = flight.through_nodes(simd, &inner, &mut leaves);
-            leaves = flight.through_leaves(simd, &leaves, &mut inner);
-        }
-        flight.answers
-    }
-
-    /// Leaf block `leaf` blocks line `i` of the chunk.
-    #[inline(always)]
-    fn any<S: Simd>(&self, simd: S, ready: &Ready, leaf: usize, i: usize) -> bool {
-        let (ray, tmax) = ready.triangle_ray(simd, i);
-        let verdict = filter::<S, false>(simd, &self.of.blocks[leaf], &ray, tmax);
-        verdict.lanes() != 0 && {
-            let ask = Ask::world(self.segments, self.from + i, self.masks);
-            blocks(self.of, &ask, leaf, verdict.lanes(), verdict.hit)
-        }
-    }
-}
 
 /// A short list of places in a flight.
 #[derive(Clone, Copy)]
@@ -106,13 +46,17 @@ impl List {
 }
 
 /// A chunk on its way.
-struct Flight<'a, M, A> {
+pub(super) struct Flight<'a, M, A> {
     chunk: &'a Chunk<'a, M>,
     ready: &'a Ready,
+    /// Where lines start that nothing else is known of.
+    root: &'a Node,
     alone: A,
     /// The lines that have not started.
     live: Lot,
-    answers: Answers,
+    /// Those that have been on their way before: where each goes on.
+    jobs: &'a [(u32, Child)],
+    pub answers: Answers,
     /// By place: which line it is.
     line: [u32; FLIGHT],
     /// Where it is.
@@ -123,7 +67,41 @@ struct Flight<'a, M, A> {
     stacks: [[u32; ROOM]; FLIGHT],
 }
 
-impl<M: Masks, A: Fn(usize, FastLine) -> bool> Flight<'_, M, A> {
+impl<'a, M: Masks, A: Fn(usize, FastLine) -> bool> Flight<'a, M, A> {
+    /// Of a chunk whose lines are `ready`; `alone` answers for those that cannot fly.
+    #[inline(always)]
+    pub fn new(chunk: &'a Chunk<'a, M>, ready: &'a Ready, root: &'a Node, alone: A) -> Self {
+        Flight {
+            chunk,
+            ready,
+            root,
+            alone,
+            live: Lot::default(),
+            jobs: &[],
+            answers: Answers::default(),
+            line: [0; FLIGHT],
+            at: [Child(0); FLIGHT],
+            top: [0; FLIGHT],
+            stacks: [[Child::leaf(0).0; ROOM]; FLIGHT],
+        }
+    }
+
+    /// Answers the lines `live` from the root, and `jobs` from where each is.
+    #[inline(always)]
+    pub fn fly<S: Simd>(&mut self, simd: S, live: Lot, jobs: &'a [(u32, Child)], turns: &mut Turns) {
+        (self.live, self.jobs) = (live, jobs);
+        let (mut inner, mut leaves) = (List::EMPTY, List::EMPTY);
+        for k in 0..FLIGHT {
+            self.launch(simd, k, &mut inner, &mut leaves);
+        }
+        while inner.len + leaves.len > 0 {
+            turns.nodes += inner.len;
+            inner = self.through_nodes(simd, &inner, &mut leaves);
+            turns.leaves += leaves.len;
+            leaves = self.through_leaves(simd, &leaves, &mut inner);
+        }
+    }
+
     /// One turn of every line in `turn`, which are at nodes; those that are at nodes again.
     #[inline(always)]
     fn through_nodes<S: Simd>(&mut self, simd: S, turn: &List, leaves: &mut List) -> List {
@@ -177,18 +155,32 @@ impl<M: Masks, A: Fn(usize, FastLine) -> bool> Flight<'_, M, A> {
     /// Lets the next line fly at place `k`, if there is one.
     #[inline(always)]
     fn launch<S: Simd>(&mut self, simd: S, k: usize, inner: &mut List, leaves: &mut List) {
-        let Some(word) = self.live.iter().position(|word| *word != 0) else { return };
+        let Some(word) = self.live.iter().position(|word| *word != 0) else {
+            return self.resume(k, inner, leaves);
+        };
         let i = 64 * word + self.live[word].trailing_zeros() as usize;
         self.live[word] &= self.live[word] - 1;
         (self.line[k], self.top[k]) = (i as u32, 1);
-        let root = &self.chunk.of.tree.nodes[0];
+        let root = self.root;
         self.descend(simd, root, mask32x8::from_bitmask(simd, self.ready.roots(i)), k);
         self.sort_in(k, inner, leaves);
     }
 
+    /// Lets the next job fly at place `k`, if there is one.
+    #[inline(always)]
+    fn resume(&mut self, k: usize, inner: &mut List, leaves: &mut List) {
+        while let Some(((line, child), rest)) = self.jobs.split_first() {
+            self.jobs = rest;
+            if self.answers[*line as usize % CHUNK / 64] >> (line % 64) & 1 == 0 {
+                (self.line[k], self.at[k], self.top[k]) = (*line, *child, 1);
+                return self.sort_in(k, inner, leaves);
+            }
+        }
+    }
+
     /// Answers the lines that cannot fly.
     #[inline(always)]
-    fn wild(&mut self, wild: &Lot) {
+    pub fn wild(&mut self, wild: &Lot) {
         for (k, word) in wild.iter().enumerate() {
             let mut left = *word;
             while left != 0 {

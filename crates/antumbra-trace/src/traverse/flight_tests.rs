@@ -10,6 +10,8 @@ use crate::layout::{Bounds, Tree, leaf_ids};
 use crate::level::SimdLevel;
 use crate::traverse::ask::Opaque;
 use crate::traverse::ray::Limits;
+use crate::traverse::triangles::TriangleTree;
+use crate::traverse::{Lines, Room, Ways};
 use crate::{NO_PRIM, SegmentBuffer};
 
 /// A chain of nodes in one box: at each, a line leaves seven leaf blocks behind and goes on to the next node. Nothing
@@ -50,8 +52,7 @@ fn outside(nodes: usize, count: usize, level: SimdLevel) -> usize {
         true
     };
     let level = level.token().expect("available");
-    let mut ready = Ready::EMPTY;
-    let answers = dispatch!(level, simd => chunk.blocked(simd, &mut ready, answer));
+    let answers = dispatch!(level, simd => chunk.blocked(simd, &mut Room::new(Ways::Alone, &of), answer));
     assert_eq!(answers.iter().map(|word| word.count_ones() as usize).sum::<usize>(), alone.get());
     alone.get()
 }

@@ -5,24 +5,32 @@
 
 mod ask;
 mod boxes;
+mod chunk;
 mod closest;
 mod eight;
 mod exact;
 mod filter;
 mod flight;
+mod gate;
 mod measure;
+mod packet;
 mod ray;
 mod ready;
+mod rules;
+mod shaft;
 mod shapes;
+mod sixteen;
 mod triangles;
 mod vector;
 
 pub(crate) use ask::{Ask, Asking, Best, Masks, Opaque};
 pub(crate) use boxes::{VisitAny, VisitNearest, any_hit, nearest_hit};
+pub(crate) use chunk::{Chunk, Room};
 pub(crate) use closest::Desk;
 pub(crate) use exact::{Count, ExactVisit, NotCounted, any_hit_exact, nearest_hit_exact};
-pub(crate) use flight::{Answers, Chunk};
+pub(crate) use flight::Answers;
 pub(crate) use ray::{FastLine, Limits, Lines};
-pub(crate) use ready::{CHUNK, Ready};
+pub(crate) use ready::CHUNK;
+pub use rules::Ways;
 pub(crate) use shapes::{Numbered, ShapeTree, ShapeVisit};
 pub(crate) use triangles::{AnyTriangle, ExactTriangles, NearestTriangle, TriangleTree};

@@ -106,6 +106,12 @@ impl Limits {
         Limits::of_scale(tree.scale)
     }
 
+    /// There are origins for which f32 is proven.
+    #[inline(always)]
+    pub fn are_sound(&self) -> bool {
+        self.origin >= 0.0
+    }
+
     /// The same, but for origins up to `origin` only.
     pub fn within(self, origin: f64) -> Limits {
         Limits { origin: self.origin.min(below(origin)) }

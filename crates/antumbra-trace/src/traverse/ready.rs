@@ -1,10 +1,11 @@
 //! Lines of a batch made ready eight at a time: what boxes and triangles read of each, side by side.
 
-use fearless_simd::{Simd, f32x8, mask32x8, prelude::*};
+use fearless_simd::{Simd, f32x8, f32x16, mask32x8, prelude::*};
 
 use super::boxes::FAR_SLACK;
 use super::filter::{TriangleRay, U};
 use super::ray::{Limits, Lines, power};
+use super::sixteen::PACKET;
 use super::vector::V3;
 use crate::TO_POINT;
 use crate::layout::{Node, Row, WIDTH};
@@ -32,6 +33,17 @@ pub(crate) struct Ready {
     roots: [u8; CHUNK],
 }
 
+/// Sixteen lines side by side; names as in [`Ready`].
+#[derive(Clone, Copy)]
+pub(crate) struct Side16<S: Simd> {
+    pub o: [f32x16<S>; 3],
+    pub d: [f32x16<S>; 3],
+    pub r: [f32x16<S>; 3],
+    pub or: [f32x16<S>; 3],
+    pub tmax: f32x16<S>,
+    pub edge: f32x16<S>,
+}
+
 /// Sets of lines of a chunk, one bit a line.
 pub(crate) type Lot = [u64; CHUNK / 64];
 
@@ -49,12 +61,12 @@ impl Ready {
     };
 
     /// Takes entries `from` … `from` + `count` − 1 of `lines`; `count` ≤ [`CHUNK`]. Which of them meet a child of
-    /// `root`, and for which f32 is not proven. Where they enter the children goes to `enters`, if it is wanted.
+    /// `root`, and for which f32 is not proven; without a root no line will meet boxes. Where they enter the children goes to `enters`, if it is wanted.
     #[inline(always)]
     pub fn take<S: Simd>(
         &mut self,
         simd: S,
-        (lines, limits, root): (&Lines<'_>, &Limits, &Node),
+        (lines, limits, root): (&Lines<'_>, &Limits, Option<&Node>),
         (from, count): (usize, usize),
         mut enters: Option<&mut Enters>,
     ) -> [Lot; 2] {
@@ -74,7 +86,7 @@ impl Ready {
     fn eight<S: Simd>(
         &mut self,
         simd: S,
-        (lines, limits, root): (&Lines<'_>, &Limits, &Node),
+        (lines, limits, root): (&Lines<'_>, &Limits, Option<&Node>),
         from: usize,
         block: usize,
         enters: Option<&mut Enters>,
@@ -84,23 +96,29 @@ impl Ready {
         let o = [read(0), read(1), read(2)];
         let reach = read(6);
         let to_point = reach.simd_eq(TO_POINT);
-        let d = [0, 1, 2].map(|a| {
-            let end = read(3 + a);
-            to_point.select(end - o[a], end)
-        });
+        let end = [read(3), read(4), read(5)];
+        // Written out: with `map` on an array a closure is a call that knows no SIMD level.
+        let d = [
+            to_point.select(end[0] - o[0], end[0]),
+            to_point.select(end[1] - o[1], end[1]),
+            to_point.select(end[2] - o[2], end[2]),
+        ];
         let tmax = to_point.select(f32x8::splat(simd, 1.0), reach);
-        let [ax, ay, az] = d.map(|c| c.abs());
+        let [ax, ay, az] = [d[0].abs(), d[1].abs(), d[2].abs()];
         let size = ax.max(ay).max(az);
         let good = limits.hold_eight(simd, &o, &d, size, tmax);
         let at = WIDTH * block;
         put(&mut self.tmax, at, tmax);
         put(&mut self.edge, at, (ax + ay + az) * 1.00001 * (40.0 * U));
-        let eta = size * power(-60);
-        let r = d.map(|c| f32x8::splat(simd, 1.0) / c.abs().simd_lt(eta).select(eta.copysign(c), c));
-        let or = [0, 1, 2].map(|a| -(o[a] * r[a]));
         for a in 0..3 {
             put(&mut self.o[a], at, o[a]);
             put(&mut self.d[a], at, d[a]);
+        }
+        let Some(root) = root else { return [good, 0xff] };
+        let eta = size * power(-60);
+        let r = [reciprocal(simd, d[0], eta), reciprocal(simd, d[1], eta), reciprocal(simd, d[2], eta)];
+        let or = [-(o[0] * r[0]), -(o[1] * r[1]), -(o[2] * r[2])];
+        for a in 0..3 {
             put(&mut self.r[a], at, r[a]);
             put(&mut self.or[a], at, or[a]);
             let [near, far] = Row::pairs(simd, r[a], a);
@@ -138,6 +156,22 @@ impl Ready {
         (enter.simd_le(leave * FAR_SLACK), enter)
     }
 
+    /// Lines `first` … `first` + 15 side by side.
+    #[inline(always)]
+    pub fn sixteen<S: Simd>(&self, simd: S, first: usize) -> Side16<S> {
+        let first = first % CHUNK / PACKET * PACKET;
+        let read = |c: &Column| f32x16::from_slice(simd, &c[first..first + PACKET]);
+        let three = |c: &[Column; 3]| [read(&c[0]), read(&c[1]), read(&c[2])];
+        Side16 {
+            o: three(&self.o),
+            d: three(&self.d),
+            r: three(&self.r),
+            or: three(&self.or),
+            tmax: read(&self.tmax),
+            edge: read(&self.edge),
+        }
+    }
+
     /// Line `i` as a leaf block sees it, and its tmax.
     #[inline(always)]
     pub fn triangle_ray<S: Simd>(&self, simd: S, i: usize) -> (TriangleRay<S>, f32) {
@@ -145,6 +179,12 @@ impl Ready {
         let three = |c: &[Column; 3]| V3::splat(simd, [c[0][i], c[1][i], c[2][i]]);
         (TriangleRay::world(simd, three(&self.o), three(&self.d), self.edge[i]), self.tmax[i])
     }
+}
+
+/// 1/d, or ±1/η where |d| < η.
+#[inline(always)]
+fn reciprocal<S: Simd>(simd: S, d: f32x8<S>, eta: f32x8<S>) -> f32x8<S> {
+    f32x8::splat(simd, 1.0) / d.abs().simd_lt(eta).select(eta.copysign(d), d)
 }
 
 /// Eight numbers of a column; zeros beyond its end.

@@ -256,6 +256,12 @@ impl TriangleTree {
         ask.masked || self.masked.get(leaf).is_some_and(|m| m >> lane & 1 == 1)
     }
 
+    /// It is larger than the caches of a core.
+    #[inline]
+    pub(super) fn is_large(&self) -> bool {
+        size_of_val(self.blocks.as_slice()) > 1 << 25
+    }
+
     /// Primitives in a leaf.
     fn count(&self, leaf: usize) -> usize {
         self.tree.leaves[leaf].iter().filter(|&&id| id != NO_PRIM).count()

@@ -3,11 +3,11 @@
 use antumbra_math::{DMat3, DVec3, Transform};
 use antumbra_trace::{
     Bits, Brute, BuildOptions, Geometry, Hits, Instance, Passes, Pool, Segments, Shape, SimdLevel, Triangles,
-    Visibility, World,
+    Visibility, Ways, World,
 };
 
 use crate::meshes::{self, geometry};
-use crate::questions::questions;
+use crate::questions::{bundles, questions};
 use crate::rng::{Rng, amount, to_f32};
 
 /// A third of all masked hits go through.
@@ -23,6 +23,12 @@ impl Passes for Third {
 /// An instance that is where its numbers say.
 fn flat(geometry: u32, masked: bool) -> Instance {
     Instance { geometry, transform: None, masked }
+}
+
+/// Every level in every way that any-hit queries may go.
+fn levels_and_ways() -> impl Iterator<Item = (SimdLevel, Ways)> {
+    let ways = [Ways::Measured, Ways::Together, Ways::Packets, Ways::Alone];
+    SimdLevel::available().into_iter().flat_map(move |level| ways.map(|ways| (level, ways)))
 }
 
 /// Asks both and compares every bit.
@@ -44,20 +50,29 @@ fn compare(name: &str, geometries: &[Geometry], instances: &[Instance], asked: S
             world.nearest_counted(asked, &mut h, &mut work);
             assert!(b == bits && h == hits && work.len() == asked.len(), "{name}: counted queries differ");
         }
-        for level in SimdLevel::available() {
+        for (level, ways) in levels_and_ways() {
             world.set_level(level);
-            let (mut b, mut h) = (Bits::default(), Hits::default());
+            world.set_ways(ways);
+            // Closest hits go one way only.
+            let nearest = ways == Ways::Measured;
+            let mut b = Bits::default();
+            let mut h = if nearest { Hits::default() } else { hits.clone() };
             if masked {
                 world.with_passes(&Third).occluded(asked, &mut b);
-                world.with_passes(&Third).nearest(asked, &mut h);
             } else {
                 world.occluded(asked, &mut b);
+            }
+            if nearest && masked {
+                world.with_passes(&Third).nearest(asked, &mut h);
+            } else if nearest {
                 world.nearest(asked, &mut h);
             }
             for i in 0..asked.len() {
                 let what = || {
                     let (o, e, reach) = (asked.origin_at(i), asked.end_at(i), asked.reach[i]);
-                    format!("{name} at {level:?}, masks asked: {masked}: {i}: {o:?} {e:?} {reach:?}")
+                    format!(
+                        "{name} at {level:?}, {ways:?}, masks asked: {masked}: {i}: {o:?} {e:?} {reach:?}"
+                    )
                 };
                 assert_eq!(b.get(i), bits.get(i), "any hit: {}", what());
                 assert_eq!(h.prim[i], hits.prim[i], "closest: {}", what());
@@ -97,8 +112,11 @@ fn flat_meshes_at_all_scales() {
         for (name, mesh) in hard_meshes(&mut r) {
             let mesh = meshes::moved(&mesh, scale, by);
             let asked = questions(&mut r, &mesh, amount(700, 20_000), scale, by, 0);
+            let together = bundles(&mut r, &mesh, amount(3, 300), scale, by, 0);
             let name = format!("{name} × {scale:e} + {by:?}");
-            compare(&name, &[geometry(mesh)], &[flat(0, false)], asked.as_segments());
+            let (geometries, instances) = ([geometry(mesh)], [flat(0, false)]);
+            compare(&name, &geometries, &instances, asked.as_segments());
+            compare(&format!("{name}, bundles"), &geometries, &instances, together.as_segments());
         }
     }
 }
@@ -113,6 +131,8 @@ fn several_flat_instances_with_masks() {
             [flat(1, true), flat(0, true), flat(1, false), flat(2, false), flat(0, false), flat(1, false)];
         let asked = questions(&mut r, &all[0], 1500, 1.0, [0.0; 3], 0);
         compare("flat instances", &geometries, &instances, asked.as_segments());
+        let asked = bundles(&mut r, &all[0], 4, 1.0, [0.0; 3], 0);
+        compare("flat instances, bundles", &geometries, &instances, asked.as_segments());
     }
 }
 

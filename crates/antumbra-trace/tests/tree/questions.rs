@@ -44,6 +44,51 @@ pub fn questions(
     out
 }
 
+/// `n` bundles of 100 to 300 questions each that start in a small box and end in one, or go about the same way; with
+/// runs of common origins, and now and then a strange one among them.
+pub fn bundles(
+    r: &mut Rng,
+    mesh: &Triangles,
+    n: usize,
+    scale: f64,
+    centre: [f64; 3],
+    base: u32,
+) -> SegmentBuffer {
+    let mut out = SegmentBuffer::default();
+    for _ in 0..n {
+        let sizes = [0.0, 1e-7, 1e-3, 0.05, 0.5];
+        let [from, to] = [0; 2].map(|_| scale * sizes[r.below(5) as usize]);
+        let goal = target(r, mesh);
+        let start = origin(r, mesh, goal, scale, centre);
+        let beyond = [0.5, 1.0, 1.5, 2.0][r.below(4) as usize];
+        let run = [1, 4, 16, 23][r.below(4) as usize];
+        let kind = r.below(4);
+        let near = |r: &mut Rng, p: [f64; 3], size: f64| {
+            let e = r.cube(size);
+            [0, 1, 2].map(|k| p[k] + e[k])
+        };
+        let mut p = start;
+        for k in 0..100 + r.below(200) as usize {
+            if k % run == 0 {
+                p = near(r, start, from);
+            }
+            let (q, number) = (near(r, goal, to), out.len() as u32);
+            let prims = [skip(r, mesh, base), skip(r, mesh, base)];
+            let d = [0, 1, 2].map(|a| beyond * (q[a] - p[a]));
+            match kind {
+                _ if r.below(200) == 0 => strange(r, &mut out, to_f32(p), to_f32(q), number),
+                0 | 1 => {
+                    let q = [0, 1, 2].map(|a| p[a] + d[a]);
+                    out.push_segment(to_f32(p), to_f32(q), prims[0], prims[1], number);
+                }
+                2 => out.push_ray(to_f32(p), to_f32(d), 1.0, prims[0], number),
+                _ => out.push_ray(to_f32(p), to_f32(d), f32::INFINITY, prims[0], number),
+            }
+        }
+    }
+    out
+}
+
 /// Mostly no primitive, else one to skip.
 fn skip(r: &mut Rng, mesh: &Triangles, base: u32) -> u32 {
     if r.below(3) > 0 { NO_PRIM } else { base + r.below(mesh.indices.len() as u64) as u32 }
