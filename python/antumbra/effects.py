@@ -31,7 +31,7 @@ RULES = (
     Rule(("light", "environment"), "estimator", _SEES_LIGHT),
     Rule(("rotate",), "sampler", ("regular",)),
     Rule(("pairing",), "sampler", ("owen",)),
-    Rule(("filter",), "viewing", ("filter",)),
+    Rule(("filter", "aperture", "focus"), "viewing", ("filter",)),
     Rule(("aov", "exr"), "output", (".exr",)),
     Rule(("exposure", "tone"), "output", (".png",)),
     Rule(("region_points",), "aov", ("regions", "all")),

@@ -100,16 +100,21 @@ class Dielectric(Described):
 
 @dataclass(frozen=True)
 class ThinDielectric(Described):
-    """A pane of clear glass without thickness: light goes straight through or is mirrored, between its faces too.
+    """A pane of glass without thickness: light goes straight through or is mirrored, between its faces too.
 
-    `ior`: its index of refraction over that around it, 0.1 to 10. Shadow rays do not pass it; paths do.
+    `ior`: its index of refraction over that around it, 0.1 to 10. With a `roughness` GGX facets spread both about their
+    directions. Shadow rays do not pass it; paths do.
     """
 
     ior: float = 1.5
+    roughness: float = 0.0
 
     def fields(self) -> Fields:
         """Its numbers by name."""
-        return {"ior": [within("ior", self.ior, 0.1, 10.0)]}
+        return {
+            "ior": [within("ior", self.ior, 0.1, 10.0)],
+            "roughness": [fraction("roughness", self.roughness)],
+        }
 
 
 @dataclass(frozen=True)
@@ -151,8 +156,41 @@ class Blend(Described):
         """Its own number; a scene adds the two materials."""
         return {"weight": [fraction("weight", self.weight)]}
 
+    def parts(self) -> dict[str, Material]:
+        """The materials that it is made of."""
+        return {"first": self.first, "second": self.second}
 
-Material = Diffuse | Mirror | MetallicRoughness | Conductor | Dielectric | ThinDielectric | Plastic | Blend
+
+@dataclass(frozen=True)
+class TwoSided(Described):
+    """One material on the `front` of a surface, where its normal points, and another one on its `back`.
+
+    Every other material looks alike from both sides.
+    """
+
+    front: Material
+    back: Material
+
+    def fields(self) -> Fields:
+        """No numbers of its own; a scene adds the two materials."""
+        return {}
+
+    def parts(self) -> dict[str, Material]:
+        """The materials that it is made of."""
+        return {"front": self.front, "back": self.back}
+
+
+Material = (
+    Diffuse
+    | Mirror
+    | MetallicRoughness
+    | Conductor
+    | Dielectric
+    | ThinDielectric
+    | Plastic
+    | Blend
+    | TwoSided
+)
 
 
 def _metal(name: str) -> tuple[list[float], list[float]]:

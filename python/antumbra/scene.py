@@ -24,7 +24,7 @@ from antumbra.estimate import Estimate
 from antumbra.hit import Hit, Receivers
 from antumbra.image import Image
 from antumbra.lights import Environment, Light
-from antumbra.materials import Blend, Diffuse, Material
+from antumbra.materials import Blend, Diffuse, Material, TwoSided
 from antumbra.messages import Message, Progress
 from antumbra.pieces import Pieces
 from antumbra.shapes import Shape
@@ -161,9 +161,8 @@ class Scene(Anatomy, Pieces):
         kind = one_of("material", look, Material)
         radiance = None if emission is None else color("emission", emission)
         fields = look.fields()
-        if isinstance(look, Blend):
-            parts = {"first": look.first, "second": look.second}
-            fields |= {name: [float(self._material(part, None))] for name, part in parts.items()}
+        if isinstance(look, Blend | TwoSided):
+            fields |= {name: [float(self._material(part, None))] for name, part in look.parts().items()}
         return self._core.add_material(kind, fields, radiance)
 
     # ---- pictures ----

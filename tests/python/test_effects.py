@@ -25,10 +25,16 @@ OTHER = {
     "rotate": "on",
     "pairing": "2d",
     "filter": "box",
+    "aperture": "0.2",
+    "focus": "3.5",
     "region_points": "16",
 }
 # What has to be set beside it, so that it can be seen.
-BESIDE = {"falloff": {"radius": "0.7"}, "distance_test": {"light": "light 1"}}
+BESIDE = {
+    "falloff": {"radius": "0.7"},
+    "distance_test": {"light": "light 1"},
+    "focus": {"aperture": "0.2"},
+}
 CASES = [
     (name, rule.of, word)
     for rule in RULES

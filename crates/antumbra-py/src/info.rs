@@ -195,5 +195,7 @@ fn camera_dict<'py>(py: Python<'py>, camera: &Camera) -> PyResult<Bound<'py, PyD
     out.set_item("vertical_fov", fov)?;
     out.set_item("eye", camera.eye.to_array())?;
     out.set_item("look_at", camera.look_at.to_array())?;
+    out.set_item("aperture", camera.lens.map(|lens| lens.radius))?;
+    out.set_item("focus", camera.lens.map(|lens| lens.focus))?;
     Ok(out)
 }

@@ -99,8 +99,19 @@ pub fn material(kind: &str, fields: &Fields, emission: Option<[f32; 3]>) -> PyRe
         "ThinDielectric" => Material::thin_dielectric(fields.number("ior")?, fields.facets()?),
         _ => return unknown("material", kind),
     };
+    Ok(emitting(material, emission))
+}
+
+/// The same with a radiance of its front.
+pub fn emitting(material: Material, emission: Option<[f32; 3]>) -> Material {
     let emission = emission.map(|radiance| Emission { radiance: Rgb(radiance), both_sides: false });
-    Ok(Material { emission, ..material })
+    Material { emission, ..material }
+}
+
+/// The numbers of the two materials of a `antumbra.materials.TwoSided`: front and back.
+pub fn sides(fields: &Fields) -> PyResult<[u32; 2]> {
+    let id = |name| Ok::<_, PyErr>(fields.numbers(name, 1)?[0] as u32);
+    Ok([id("front")?, id("back")?])
 }
 
 /// What a shape of `antumbra.shapes` is made of: a shape of the tree, or two triangles.

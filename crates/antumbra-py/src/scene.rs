@@ -6,7 +6,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use antumbra::light::{Environment, Light};
 use antumbra::math::{DMat3, DVec3, Rgb, Transform};
-use antumbra::scene::{Level, Mesh, Message, Scene, SceneBuilder, SceneError, builtin};
+use antumbra::scene::{Level, Material, Mesh, Message, Scene, SceneBuilder, SceneError, builtin};
 use antumbra::schedule;
 use antumbra::settings::Settings;
 use antumbra::texture::{Image, Texels};
@@ -165,7 +165,16 @@ impl PyScene {
         fields: HashMap<String, Vec<f64>>,
         emission: Option<[f32; 3]>,
     ) -> PyResult<u32> {
-        let material = kinds::material(kind, &Fields::about(fields, [0.0; 3]), emission)?;
+        let fields = Fields::about(fields, [0.0; 3]);
+        if kind == "TwoSided" {
+            let [front, back] = kinds::sides(&fields)?;
+            return self.change(|builder| {
+                let look = builder.materials.get(front as usize).cloned();
+                let look = look.ok_or_else(|| errors::value("the front is no material of this scene"))?;
+                Ok(builder.material(kinds::emitting(Material { back: Some(back), ..look }, emission)))
+            });
+        }
+        let material = kinds::material(kind, &fields, emission)?;
         self.change(|builder| Ok(builder.material(material)))
     }
 

@@ -128,6 +128,10 @@ settings! {
         up: Option<[f64; 3]> = None;
         /// vertical angle of view in degrees
         fov: Option<f64> as "DEGREES" = None, |f| f.map_or(Ok(()), angle);
+        /// radius of the lens in scene units; 0: a pinhole, all is sharp (default: the file's)
+        aperture: Option<f64> as "R" = None, |r| r.map_or(Ok(()), |r| within(r, 0.0, 1e30));
+        /// distance at which the lens is sharp (default: the file's, or what the middle of the picture shows)
+        focus: Option<f64> as "T" = None, |t| t.map_or(Ok(()), |t| positive(t as f32));
         /// width x height of the picture in pixels
         size: Option<[u32; 2]> = None, |s| s.map_or(Ok(()), picture_size);
         /// render only this part of the picture: x,y of its upper left pixel, width, height

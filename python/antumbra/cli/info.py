@@ -199,7 +199,13 @@ def _times(name: str, n: int) -> str:
 def _camera(camera: dict[str, Any]) -> str:
     if camera["vertical_fov"] is None:
         return f"{_quoted(camera)} (parallel)"
-    return f"{_quoted(camera)} ({_say.significant(camera['vertical_fov'] * 57.29577951308232)}° vertical)"
+    lens = ""
+    if camera["aperture"]:
+        aperture, focus = _say.significant(camera["aperture"]), _say.significant(camera["focus"])
+        lens = f", a lens of radius {aperture} in focus at {focus}"
+    return (
+        f"{_quoted(camera)} ({_say.significant(camera['vertical_fov'] * 57.29577951308232)}° vertical{lens})"
+    )
 
 
 def _quoted(named: dict[str, Any]) -> str:

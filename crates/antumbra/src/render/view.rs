@@ -1,10 +1,11 @@
 //! The camera, size and crop that the settings ask for.
 
 use antumbra_math::{DVec3, Vec3};
+use antumbra_trace::{Hits, NO_PRIM, SegmentBuffer, Visibility};
 
-use crate::scene::{Camera, Level, Message, Projection, Scene, SceneError};
+use crate::scene::{Camera, Lens, Level, Message, Projection, Scene, SceneError};
 use crate::sensor::View;
-use crate::settings::Settings;
+use crate::settings::{Masks, Settings};
 
 /// Size of a picture whose scene names none.
 const DEFAULT_SIZE: [u32; 2] = [640, 480];
@@ -29,6 +30,18 @@ pub(super) fn camera(scene: &Scene, s: &Settings, messages: &mut Vec<Message>) -
     if let Some(fov) = s.fov {
         camera.projection = Projection::Perspective { vertical_fov: fov.to_radians() };
     }
+    let moved = s.eye.is_some() || s.look_at.is_some();
+    if s.aperture.is_some() || (moved && camera.lens.is_some()) {
+        let file = camera.lens.filter(|_| !moved);
+        let focus = s.focus.or(file.map(|lens| lens.focus)).unwrap_or_else(|| middle(scene, &camera, s));
+        let radius = s.aperture.or(camera.lens.map(|lens| lens.radius)).unwrap_or_default();
+        camera.lens = Some(Lens { radius, focus });
+    }
+    match (s.focus, &mut camera.lens) {
+        (Some(focus), Some(lens)) => lens.focus = focus,
+        (Some(_), None) => note("focus has no effect without a lens (`aperture` to choose)".into()),
+        _ => {}
+    }
     if let Some(up) = camera.other_up() {
         let (was, x, y, z) = (camera.up, up.x, up.y, up.z);
         note(format!(
@@ -48,6 +61,18 @@ fn named(scene: &Scene, name: &str) -> Result<Camera, SceneError> {
     let found = scene.cameras.iter().find(|c| c.name == *name);
     let known = || scene.cameras.iter().map(|c| c.name.as_str()).collect::<Vec<_>>();
     found.cloned().ok_or_else(|| SceneError::unknown("camera", name, &known()))
+}
+
+/// How far away is what the middle of the picture shows: the point asked for, what the ray there meets, or the point that
+/// the camera looks at.
+fn middle(scene: &Scene, camera: &Camera, s: &Settings) -> f64 {
+    let toward = camera.look_at - camera.eye;
+    let (eye, along) = (camera.eye.as_vec3(), toward.normalize_or_zero().as_vec3());
+    let (mut rays, mut hits) = (SegmentBuffer::default(), Hits::default());
+    rays.push_ray(eye.to_array(), along.to_array(), f32::INFINITY, NO_PRIM, 0);
+    scene.visibility(s.masks == Masks::Opaque).nearest(rays.as_segments(), &mut hits);
+    let met = (s.look_at.is_none() && hits.prim[0] != NO_PRIM).then_some(hits.t[0]);
+    met.unwrap_or_else(|| toward.length())
 }
 
 /// A camera from which everything is seen.
