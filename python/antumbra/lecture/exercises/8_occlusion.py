@@ -33,4 +33,4 @@ def estimator(scene, at, u):
 
 
 if __name__ == "__main__":
-    show(__file__, "corner", estimator, right="ambient-occlusion")
+    show(__file__, "corner", estimator, right="ambient-occlusion", viewing_rays=64)
