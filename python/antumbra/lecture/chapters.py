@@ -32,10 +32,16 @@ SEGMENT = (
     "V(p, p′) = 0 if p + t (p′ − p) lies on a surface for some t strictly between 0 and 1, else 1",
 )
 
+BOUNCES = (
+    r"L_o(p) = L_e + \mark{\int_{A_L} f_r \, L_e \, V \, \frac{\cos\theta \, \cos\theta'}{r^2} \, \text{d}A} + \int_{\Omega} f_r \, L_o(p') \, \cos\theta \, \text{d}\omega",
+    "L_o(p) = L_e + ∫ over the lights of f_r L_e V cos θ cos θ′ / r² dA + ∫ over the hemisphere of f_r L_o(p′) cos θ dω",
+)
+
 _SIZE = Pick((280, 196), (560, 392))
 _VIEW = {"size": _SIZE, "eye": (-7.4, 5.6, 5.4), "look_at": (0.3, 0.55, 0.3), "fov": 0.5}
 _PILLARS = _VIEW | {"estimator": "area", "viewing_rays": Pick(4, 16), "shadow_rays": 4}
 _ONE_RAY = _VIEW | {"viewing": "centre", "viewing_rays": 1, "light_points": "area", "sampler": "random"}
+_BOX = {"size": Pick((196, 196), (392, 392)), "estimator": "path", "viewing_rays": Pick(16, 64)}
 
 
 def _pillars(key: str, **options: object) -> Variant:
@@ -153,6 +159,32 @@ CHAPTERS = (
                 Variant("hundred", builtin("pillars"), {**_ONE_RAY, "estimator": "area", "shadow_rays": 100}),
                 "A hundred random shadow rays a pixel: smooth penumbras.",
                 "100 shadow rays",
+            ),
+        ),
+    ),
+    Chapter(
+        number=5,
+        title="Pixels and paths",
+        short="Paths",
+        paragraphs=(
+            "A viewing ray finds what a pixel shows; shadow rays find what lights it. A pixel needs several of both, and "
+            "where the rays go is a choice.",
+            "What lights a surface is not only lamps: every lit wall is a lamp for the next one. A path follows the light "
+            "back from wall to wall. At each of them the direct light can be computed on purpose, or left to chance.",
+        ),
+        equation=Equation(
+            (BOUNCES,), "Marked: the direct light. The last term has L_o in it again: bounce after bounce."
+        ),
+        pictures=(
+            (
+                Variant("direct", builtin("cornell-box"), _BOX | {"bounces": 1}),
+                "The Cornell box in direct light: the ceiling and all shadows are black.",
+                "direct light",
+            ),
+            (
+                Variant("all", builtin("cornell-box"), _BOX),
+                "The Cornell box with all bounces: the ceiling is lit, shadows are soft and coloured.",
+                "direct and indirect",
             ),
         ),
     ),
