@@ -61,7 +61,7 @@ def strips(parts):
 
 # Where a slider begins: in the undisturbed state, or where nothing of the answer is seen.
 NEUTRAL = {
-    "shadows": "1.0", "regions": "1", "eclipse": "356500", "product": "0.1", "between": "0.5",
+    "shadows": "1.0", "regions": "1.5", "eclipse": "356500", "product": "0.1", "between": "0.5",
     "self-intersection": "safe", "solid-angle": "-3", "formulations": "0.1", "area-light": "0", "light-size": "0.25",
 }  # fmt: skip
 
@@ -78,7 +78,7 @@ def test_sliders_have_a_dozen_frames_and_begin_before_the_answer(name, folder):
 
 # What of a slide is seen and lies outside of the screen, as text for the message.
 OUTSIDE = """() => [...document.querySelectorAll('.fig.cur *')].filter(e => {
-  const looked = 'p, b, span, img, button, td, th, output, input, small, figcaption';
+  const looked = 'p, b, span, img, button, td, th, output, input, small, figcaption, var, svg';
   if (!e.offsetParent || e.closest('.sr') || !e.matches(looked)) return false;
   const b = e.getBoundingClientRect();
   return b.width && (b.right > innerWidth + 1 || b.left < -1 || b.bottom > innerHeight + 1 || b.top < -1);

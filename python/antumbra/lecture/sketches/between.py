@@ -22,8 +22,7 @@ def plane_moved(
     label = "Height of the plane [m]; the light is at 0, the cylinder above it"
     labels = ("seen along the cylinder", "--distance-test off", "on")
     note = (
-        "Green: the part from p to the light, t from 0 to 1. Orange: what a ray without end goes on to find; "
-        "with it the plane gets a shadow of what hangs above the light."
+        "Green: the part from p to the light, t from 0 to 1. Orange: what a ray without end goes on to find."
     )
     return Strip("plane", label, frames, len(heights) - 1, labels, note=note, tells=heights.index(start))
 

@@ -19,7 +19,7 @@ def receiver_moved(run: Run, disks: Disks, distances: Sequence[float], width: fl
     """Side view, map and picture of the receiver at each distance g behind the occluder: variants `g{g}`."""
     label = "Receiver, distance g behind the occluder"
     labels = ("Side view", "Region of every pixel", "Picture of the receiver")
-    return Strip("g", label, [_frame(run, disks, g, width) for g in distances], 1, labels)
+    return Strip("g", label, [_frame(run, disks, g, width) for g in distances], 2, labels)
 
 
 def _frame(run: Run, disks: Disks, g: float, width: float) -> Frame:
