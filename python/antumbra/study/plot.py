@@ -211,7 +211,10 @@ class _Page:
         """Each name at the end of its line, those that would touch pushed apart; the note under it."""
         ends = []
         for curve in self.curves:
-            last = (curve.line.x[-1], curve.line.value[-1]) if curve.line else (curve.x[-1], curve.y[-1])
+            last = curve.x[-1], curve.y[-1]
+            # Where the line ends before the marks do, the name stands at the last mark.
+            if curve.line is not None and curve.line.x[-1] > 0.999 * max(curve.x):
+                last = float(curve.line.x[-1]), float(curve.line.value[-1])
             y = float(self.axes.transData.transform(last)[1])
             ends.append(self.height - y if math.isfinite(y) else self.height - _BELOW)
         lowest = self.height - _BELOW + (5 if self.apart == _APART_ALONE else -12)

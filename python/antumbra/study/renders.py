@@ -74,8 +74,10 @@ class Work:
             return made
 
         def show(state: Any) -> None:
-            if self._watch and self.planned:
-                self._watch(Step(min(1.0, (self._done + cost * state.done) / self.planned), what))
+            if self._watch:
+                # Pilots come before it is known how much is ahead.
+                share = (self._done + cost * state.done) / self.planned if self.planned else 0.0
+                self._watch(Step(min(1.0, share), what))
 
         image = self.scene(parameters).render(
             progress=show if self._watch else None, **{**words, "seed": str(seed)}

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
+from made_up import figure
 
 from antumbra._words import written
 from antumbra.lecture.figure import Claim, Figure, Question
 from antumbra.lecture.measures.ratio import excess, ratio
-from antumbra.lecture.measures.replicates import of_interval
+from antumbra.lecture.measures.replicates import median_of, of_interval
 from antumbra.lecture.quantity import Quantity
 from antumbra.lecture.verdict import verdict
 from antumbra.study import statistics
@@ -26,6 +29,7 @@ from antumbra.study.statistics import Interval
         (Quantity(1234.4, 99.6), "1", "1,234 ± 100"),
         (Quantity(-0.0001, 0.01), "1", "0.00 ± 0.01"),
         (Quantity(4.0), "", "4"),
+        (Quantity(0.5, unit="%", low=0.41, high=0.7), "r", "50 (41 … 70) %"),
     ],
 )
 def test_a_quantity_is_written_as_far_as_its_error(quantity, spec, text):
@@ -69,6 +73,24 @@ def test_the_ends_of_a_root_or_ratio_decide_each_for_itself():
     assert excess(of).interval == pytest.approx((0.19**0.5 - 1, 0.1))
     twice = ratio(Quantity(2.0, 0.1), Quantity(1.0, 0.5))
     assert twice.interval[1] - 2 > 2 - twice.interval[0] and twice.error == twice.interval[1] - 2
+
+
+def test_a_rate_that_something_disturbs_has_the_range_of_its_calls():
+    # One call of nine met something else: median and ends, and no claim on either side of 1.
+    calls = [1.21, 1.19, 1.2, 1.22, 0.6, 1.18, 1.2, 1.23, 1.2]
+    found = median_of(calls)
+    assert (found.value, *found.interval) == pytest.approx((1.2, 0.6, 1.23))
+    assert format(found, "r") == "1.2 (0.6 … 1.23)"
+    assert verdict(Claim("It is faster.", "x", above=1.0), {"x": found}) == "undecided"
+    assert verdict(Claim("It is faster.", "x", above=1.0), {"x": median_of(calls[:4])}) == "supported"
+
+
+def test_the_answer_of_a_question_rests_on_claims_of_its_figure():
+    right = figure(1)
+    with pytest.raises(ValueError, match="needs claims that prove it"):
+        replace(right, question=replace(right.question, proof=("other",)))
+    with pytest.raises(ValueError, match="needs claims that prove it"):
+        replace(right, question=replace(right.question, proof=()))
 
 
 def test_declarations_that_ask_nothing_are_refused():

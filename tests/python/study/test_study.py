@@ -274,7 +274,9 @@ def test_progress_is_told():
     am.study.run("pillars", progress=steps.append, **SMALL)
     done = [step.done for step in steps]
     assert done == sorted(done) and done[0] >= 0 and done[-1] <= 1
-    assert steps[0].what.startswith("reference, seed 1 of 8")
+    said = list(dict.fromkeys(step.what for step in steps))
+    assert said[0] == "a pilot" and said[1].startswith("reference, seed 1 of 8")
+    assert all(step.done == 0 for step in steps if step.what == "a pilot")
 
 
 @pytest.mark.parametrize(
