@@ -37,6 +37,11 @@ BOUNCES = (
     "L_o(p) = L_e + ∫ over the lights of f_r L_e V cos θ cos θ′ / r² dA + ∫ over the hemisphere of f_r L_o(p′) cos θ dω",
 )
 
+LATER_BOUNCES = (
+    r"L_o = L_e + \mark{T} L_e + \mark{T}^2 L_e + \dots, \qquad (\mark{T} L)(p) = \int_{\Omega} f_r \, L(p') \, \cos\theta \, \text{d}\omega",
+    "L_o = L_e + T L_e + T² L_e + …, where (T L)(p) = ∫ over the hemisphere of f_r L(p′) cos θ dω",
+)
+
 _SIZE = Pick((280, 196), (560, 392))
 _VIEW = {"size": _SIZE, "eye": (-7.4, 5.6, 5.4), "look_at": (0.3, 0.55, 0.3), "fov": 0.5}
 _PILLARS = _VIEW | {"estimator": "area", "viewing_rays": Pick(4, 16), "shadow_rays": 4}
