@@ -7,6 +7,7 @@ mod common;
 use std::path::{Path, PathBuf};
 
 use antumbra::scene::{Projection, SceneBuilder, Surface};
+use antumbra::texture::Texels;
 use antumbra_io::{ReadOptions, read_path};
 use antumbra_math::DVec3;
 
@@ -126,4 +127,24 @@ fn materials_carry_their_factors_textures_and_emission() {
     assert!(matches!(m.surface, Surface::MetallicRoughness { .. }));
     let s = scene(&data, "scenes/gltf/texture_transform/09_texture_transform.gltf");
     assert!(s.textures[0].map != [1.0, 0.0, 0.0, 0.0, 1.0, 0.0]);
+}
+
+/// The same logo as WebP alone and with a PNG to fall back on, which then comes first.
+#[test]
+fn webp_is_read_where_the_file_offers_it() {
+    let Some(data) = common::data("webp_is_read_where_the_file_offers_it") else { return };
+    // Means of both pictures as another program decodes them.
+    for (file, told) in [
+        ("box-textured-separate", [154.714, 186.265, 176.429]),
+        ("box-textured-with-fallback", [154.594, 186.172, 176.362]),
+    ] {
+        let s = scene(&data, &format!("scenes/gltf/texture_webp/{file}.gltf"));
+        let image = &s.textures[s.materials[0].color.unwrap() as usize].image;
+        let Texels::Srgb8(texels) = &image.texels else { panic!() };
+        let mean = [0, 1, 2].map(|c| {
+            texels.iter().map(|t| f64::from(t[c])).sum::<f64>() / f64::from(image.width * image.height)
+        });
+        assert_eq!((image.width, image.height), (128, 128));
+        assert!((0..3).all(|c| (mean[c] - told[c]).abs() < 0.02), "{file}: {mean:?}");
+    }
 }

@@ -214,7 +214,7 @@ fn numbers_of_a_look_may_be_textures() {
 fn a_bumpmap_has_heights_and_a_scale() {
     let heights =
         "<texture type='checkerboard'><transform name='to_uv'><scale value='3'/></transform></texture>";
-    let scale = "<float name='scale' value='0.25'/>";
+    let scale = "<float name='scale' value='0.25'/><boolean name='use_shadowing_function' value='false'/>";
     let inner = "<bsdf type='diffuse'/>";
     let (s, look) =
         look_of(&format!("<bsdf type='twosided'><bsdf type='bumpmap'>{heights}{scale}{inner}</bsdf></bsdf>"));

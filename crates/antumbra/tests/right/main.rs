@@ -19,6 +19,7 @@ mod judge;
 mod lengths;
 mod lens;
 mod masks;
+mod mixture;
 mod normal_maps;
 mod pictures;
 mod planes;

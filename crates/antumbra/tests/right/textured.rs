@@ -14,7 +14,7 @@ use antumbra::trace::{Hits, NO_PRIM, SegmentBuffer, Visibility};
 use super::scenes::parallelogram;
 
 /// The unit square in the plane z = 0 that faces +z, u = x and v = y, of what `look` makes of it, moved by `linear`.
-fn square(linear: DMat3, look: impl FnOnce(&mut SceneBuilder) -> Material) -> Scene {
+pub(super) fn square(linear: DMat3, look: impl FnOnce(&mut SceneBuilder) -> Material) -> Scene {
     let mut builder = SceneBuilder::new("square");
     let made = look(&mut builder);
     let material = builder.material(made);
@@ -26,13 +26,17 @@ fn square(linear: DMat3, look: impl FnOnce(&mut SceneBuilder) -> Material) -> Sc
     builder.build().unwrap()
 }
 
-/// The ray straight down above (x, y), with what it meets.
-fn down(scene: &Scene, x: f64, y: f64) -> Ray {
-    let (o, d) = (Vec3::new(x as f32, y as f32, 1.0), Vec3::NEG_Z);
+/// The ray from `o` along `d`, with what it meets.
+pub(super) fn shot(scene: &Scene, o: Vec3, d: Vec3) -> Ray {
     let (mut rays, mut hits, number) = (SegmentBuffer::default(), Hits::default(), 7);
     rays.push_ray(o.to_array(), d.to_array(), f32::INFINITY, NO_PRIM, number);
     scene.visibility(false).nearest(rays.as_segments(), &mut hits);
     Ray { o, d, t: hits.t[0], prim: hits.prim[0], uv: hits.uv[0], number }
+}
+
+/// The ray straight down above (x, y).
+fn down(scene: &Scene, x: f64, y: f64) -> Ray {
+    shot(scene, Vec3::new(x as f32, y as f32, 1.0), Vec3::NEG_Z)
 }
 
 fn met(scene: &Scene, x: f64, y: f64) -> Met {

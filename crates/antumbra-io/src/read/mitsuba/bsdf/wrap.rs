@@ -35,11 +35,13 @@ pub(super) fn mask<'a>(reader: &mut Reader<'a>, element: &'a Element) -> Result<
     }
 }
 
+/// How Mitsuba treats bent normals that point below the surface and light that grazes it; antumbra has one way.
+const BELOW: [&str; 2] = ["flip_invalid_normals", "use_shadowing_function"];
+
 /// Bends the shading normal by a picture of normals.
 pub(super) fn normalmap<'a>(reader: &mut Reader<'a>, element: &'a Element) -> Result<Material, ReadError> {
     let material = reader.inner(element)?;
-    // How Mitsuba treats normals that point below the surface; antumbra has one way.
-    element.pass_over(&["flip_invalid_normals", "use_shadowing_function"]);
+    element.pass_over(&BELOW);
     match reader.paint(element, "normalmap", 0.0)? {
         Paint::Texture(texture) => {
             let normal = Some(NormalMap { texture, scale: 1.0 });
@@ -52,6 +54,7 @@ pub(super) fn normalmap<'a>(reader: &mut Reader<'a>, element: &'a Element) -> Re
 /// Bends the shading normal by heights.
 pub(super) fn bumpmap<'a>(reader: &mut Reader<'a>, element: &'a Element) -> Result<Material, ReadError> {
     let material = reader.inner(element)?;
+    element.pass_over(&BELOW);
     let scale = element.float("scale", 1.0)? as f32;
     let found = reader.plugins(element, "texture")?;
     let Some(heights) = found.first() else {
