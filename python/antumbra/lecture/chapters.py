@@ -37,6 +37,10 @@ BOUNCES = (
     "L_o(p) = L_e + ∫ over the lights of f_r L_e V cos θ cos θ′ / r² dA + ∫ over the hemisphere of f_r L_o(p′) cos θ dω",
 )
 
+OCCLUSION = (
+    r"\text{AO}(p) = \frac{1}{\pi} \int_{\Omega} \mark{V(p, \omega)} \, \cos\theta \, \text{d}\omega \approx \frac{1}{N} \sum_{j=1}^{N} \mark{V(p, \omega_j)}",
+    "AO(p) = (1/π) ∫ over the hemisphere of V(p, ω) cos θ dω ≈ (1/N) · sum over N directions of V(p, ω)",
+)
 LATER_BOUNCES = (
     r"L_o = L_e + \mark{T} L_e + \mark{T}^2 L_e + \dots, \qquad (\mark{T} L)(p) = \int_{\Omega} f_r \, L(p') \, \cos\theta \, \text{d}\omega",
     "L_o = L_e + T L_e + T² L_e + …, where (T L)(p) = ∫ over the hemisphere of f_r L(p′) cos θ dω",
@@ -46,6 +50,7 @@ _SIZE = Pick((280, 196), (560, 392))
 _VIEW = {"size": _SIZE, "eye": (-7.4, 5.6, 5.4), "look_at": (0.3, 0.55, 0.3), "fov": 0.5}
 _PILLARS = _VIEW | {"estimator": "area", "viewing_rays": Pick(4, 16), "shadow_rays": 4}
 _ONE_RAY = _VIEW | {"viewing": "centre", "viewing_rays": 1, "light_points": "area", "sampler": "random"}
+_OPEN = {"size": _SIZE, "estimator": "ambient-occlusion", "viewing_rays": Pick(4, 16), "shadow_rays": 16}
 _BOX = {"size": Pick((196, 196), (392, 392)), "estimator": "path", "viewing_rays": Pick(16, 64)}
 
 
@@ -190,6 +195,30 @@ CHAPTERS = (
                 Variant("all", builtin("cornell-box"), _BOX),
                 "The Cornell box with all bounces: the ceiling is lit, shadows are soft and coloured.",
                 "direct and indirect",
+            ),
+        ),
+    ),
+    Chapter(
+        number=6,
+        title="Environment and occlusion",
+        short="Sky",
+        paragraphs=(
+            "Out of doors the light is all around. How bright a point is depends on how much of the sky it sees: under a "
+            "white sky on that alone.",
+            "That share, weighted by the cosine, is ambient occlusion. It needs no lamp and no material, only geometry: so "
+            "it can be computed beforehand, and once for all.",
+        ),
+        equation=Equation((OCCLUSION,), "Marked: whether the sky is seen along a direction."),
+        pictures=(
+            (
+                Variant("box", builtin("corner"), _OPEN | {"radius": 0.5}),
+                "Bodies in a corner, occluders count up to half a metre: dark where they touch the floor.",
+                "up to 0.5",
+            ),
+            (
+                Variant("corner", builtin("corner"), _OPEN),
+                "Bodies in a corner, ambient occlusion: dark in the corner and below them.",
+                "without limit",
             ),
         ),
     ),

@@ -45,9 +45,7 @@ def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
     bounces = [float(k) for k in DEPTHS[1:]]
     own = [found[f"share-{k}"] for k in DEPTHS[1:]]
     rate, first = found["rate"].value, own[5].value
-    curve = curve_of(
-        "light of k", bounces, own, lambda k: first * rate ** (k - 6), f"× {rate:.2f} each"
-    )
+    curve = curve_of("light of k", bounces, own, lambda k: first * rate ** (k - 6), f"× {rate:.2f} each")
     svg = error_curves(
         [curve], x_title="reflections k", y_title="share of the reflected light", logarithmic=(False, True), x_ticks=[1, 2, 4, 6, 8, 10, 12],
         y_ticks=[1, 0.1, 0.01, 0.001], label="Share of the reflected light by number of reflections: a straight line on a logarithmic scale.",

@@ -115,6 +115,13 @@ def pillars_with_strip(start: float, end: float) -> SceneOf:
     return lambda: _pillars_and(corner + start * u, (end - start) * u, v, "strip")
 
 
+def white_box() -> am.Scene:
+    """The Cornell box under a sky of radiance 1, the light "white"."""
+    scene = am.builtin("cornell-box")
+    scene.add_light(am.lights.Environment(1.0), name="white")
+    return scene
+
+
 @cache
 def half_hidden_disk() -> SceneOf:
     """A disk light of radius 1 at height 1; a plate hides the half x < 0 of it from the origin (CF35e)."""
