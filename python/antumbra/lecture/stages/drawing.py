@@ -64,13 +64,15 @@ class Sketch:
         anchor: str = "start",
         fine: bool = False,
         tells: bool = False,
+        halo: str = "",
         ink: str = INK,
     ) -> Sketch:
         """A label; `fine`: a second one, which a phone and a slide leave out; `tells`: a result, hidden until the
-        question is answered; `ink` "" follows the theme.
+        question is answered; `halo`: the colour of a rim that keeps lines behind it away; `ink` "" follows the theme.
         """
         kind = ' class="fine"' if fine else ' class="num"' if tells else ""
-        style = f' style="fill:{ink}"' if ink else ""
+        rim = f";paint-order:stroke;stroke:{halo};stroke-width:6px" if halo else ""
+        style = f' style="fill:{ink}{rim}"' if ink else ""
         x, y = at
         return self._add(
             f'<text x="{_n(x)}" y="{_n(y)}" text-anchor="{anchor}"{kind}{style}>{escape(words)}</text>'

@@ -40,7 +40,7 @@ def side_view(disks: Disks, g: float, names: tuple[str, str, str] = ("", "", "")
     if occluder:
         # Over the occluder, clear of light and rays also where the text is large.
         sketch.line((at(0, 0)[0], 70), at(0, r), dash="1 3").text(
-            (at(0, 0)[0], 62), occluder, anchor="middle"
+            (at(0, 0)[0], 62), occluder, anchor="middle", halo=LIT
         )
     sketch.text((24, 224), light).text((150, 224), distance, anchor="middle", fine=True)
     sketch.text((at(g, 0)[0] - 8, 26), "receiver", anchor="end")
