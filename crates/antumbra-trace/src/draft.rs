@@ -5,7 +5,7 @@ use crate::law::shape_box;
 use crate::layout::{Bounds, TriangleBlock, WIDTH, filled};
 use crate::object::Object;
 use crate::place::{Place, PlaceTree};
-use crate::traverse::{Limits, Numbered, ShapeTree, TriangleTree};
+use crate::traverse::{Limits, Numbered, ShapeTree, TriangleTree, walls};
 use crate::{Geometry, Instance, NO_PRIM, PrimId, Shape, Triangles};
 
 /// Why a world cannot be built.
@@ -164,7 +164,9 @@ impl Draft<'_> {
             let bits = |ids: &[u32; WIDTH]| (0..WIDTH).fold(0, |m, lane| m | bit(ids[lane]) << lane);
             masked = tree.leaves.iter().map(bits).collect();
         }
-        TriangleTree { limits: Limits::of(&tree), tree, blocks, masked }
+        let mut out = TriangleTree { limits: Limits::of(&tree), tree, blocks, masked, walls: Vec::new() };
+        out.walls = walls(&out);
+        out
     }
 
     /// The tree of world-space shapes.

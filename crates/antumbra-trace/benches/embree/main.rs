@@ -4,7 +4,7 @@
 //! `ANTUMBRA_EMBREE=/path/to/libembree4.so cargo bench --profile demo -p antumbra-trace --bench embree [-- SCENE …]`
 //! (the library is part of the Python wheel `embreex`). `ANTUMBRA_DETAIL` scales the scenes, `ANTUMBRA_MESHES`
 //! names a folder of others (`given.rs`) to take in their place, `ANTUMBRA_RESULT` names a JSON file for the numbers,
-//! `ANTUMBRA_SIMD` forces a level, `ANTUMBRA_WAYS` (together, packets, alone) a way, `ANTUMBRA_CLASS` picks one class of rays,
+//! `ANTUMBRA_SIMD` forces a level, `ANTUMBRA_WAYS` (together, packets, walls, alone) a way, `ANTUMBRA_CLASS` picks one class of rays,
 //! `ANTUMBRA_THREADS` above 1 races the builds alone, with as many threads, by the clock on the wall.
 
 mod given;
@@ -67,6 +67,7 @@ fn ways() -> Ways {
     match std::env::var("ANTUMBRA_WAYS").as_deref() {
         Ok("together") => Ways::Together,
         Ok("packets") => Ways::Packets,
+        Ok("walls") => Ways::Walls,
         Ok("alone") => Ways::Alone,
         _ => Ways::Measured,
     }

@@ -5,8 +5,8 @@ use fearless_simd::{Simd, f32x16, prelude::*};
 use super::ask::{Ask, Masks};
 use super::filter::filter;
 use super::flight::{Answers, Flight};
-use super::gate::{Few, Gate};
-use super::packet::{Jobs, Packet};
+use super::gate::Gate;
+use super::packet::{Course, Jobs, Packet};
 use super::ray::{FastLine, Lines, power};
 #[cfg(doc)]
 use super::ready::CHUNK;
@@ -15,7 +15,7 @@ use super::rules::{Rules, Turns, Way, Ways};
 use super::shaft::{Ends, across};
 use super::sixteen::PACKET;
 use super::triangles::{TriangleTree, blocks};
-use crate::layout::{Bounds, Node};
+use crate::layout::Bounds;
 use crate::{Segments, TO_POINT};
 
 /// Entries of a batch that are answered together.
@@ -87,19 +87,25 @@ impl<M: Masks> Chunk<'_, M> {
         let root = if gated && few.is_none() { &gate.node } else { &self.of.tree.nodes[0] };
         let tree = (self.lines, &self.of.limits, Some(root).filter(|_| few.is_none()));
         let [mut live, wild] = ready.take(simd, tree, (self.from, self.count), None);
+        turns.ready += if few.is_none() { self.count } else { 0 };
         let mut flight = Flight::new(self, ready, root, alone);
         flight.wild(&wild);
+        let course = match (few, way) {
+            (Some(few), _) => Course { few: std::slice::from_ref(few), root: None },
+            (None, Way::Walls) => Course { few: &self.of.walls, root: None },
+            (None, _) => Course { few: &[], root: Some(root) },
+        };
         if way != Way::Alone {
             for (word, lot) in live.iter_mut().enumerate() {
                 for part in 0..64 / PACKET {
                     let mask = (*lot >> (PACKET * part)) as u32 & 0xffff;
                     if mask != 0 {
                         let first = 64 * word + PACKET * part;
-                        let blocked = self.packet(simd, (ready, root, few), (first, mask), jobs, turns);
+                        let blocked = self.packet(simd, (ready, &course), (first, mask), jobs, turns);
                         flight.answers[word] |= u64::from(blocked) << (PACKET * part);
                     }
                 }
-                *lot = 0;
+                *lot = if way == Way::Walls { *lot & !flight.answers[word] } else { 0 };
             }
         }
         flight.fly(simd, live, jobs.all(), turns);
@@ -111,18 +117,16 @@ impl<M: Masks> Chunk<'_, M> {
     fn packet<S: Simd>(
         &self,
         simd: S,
-        (ready, root, few): (&Ready, &Node, Option<&Few>),
+        (ready, course): (&Ready, &Course<'_>),
         (first, mask): (usize, u32),
         jobs: &mut Jobs,
         turns: &mut Turns,
     ) -> u32 {
         turns.packets += 1;
-        let (packet, own) = Packet::new(simd, self, ready, (first, mask), few.is_none());
-        match (few, own) {
-            (Some(few), false) => packet.few::<false>(simd, few, mask, turns),
-            (Some(few), true) => packet.few::<true>(simd, few, mask, turns),
-            (None, false) => packet.through::<false>(simd, root, mask, jobs, turns),
-            (None, true) => packet.through::<true>(simd, root, mask, jobs, turns),
+        let (packet, own) = Packet::new(simd, self, ready, (first, mask), course.root.is_some());
+        match own {
+            false => packet.follow::<false>(simd, course, mask, jobs, turns),
+            true => packet.follow::<true>(simd, course, mask, jobs, turns),
         }
     }
 

@@ -33,7 +33,7 @@ fn chain(nodes: usize) -> TriangleTree {
     }
     let beside = [[5.0, 5.0, 5.0], [6.0, 5.0, 5.0], [5.0, 6.0, 5.0]];
     let blocks = vec![TriangleBlock::new(&[beside]); tree.leaves.len()];
-    TriangleTree { limits: Limits::of(&tree), tree, blocks, masked: Vec::new() }
+    TriangleTree { limits: Limits::of(&tree), tree, blocks, masked: Vec::new(), walls: Vec::new() }
 }
 
 /// How many of `count` lines through a chain are answered outside the flight; the flight believes those answers.

@@ -23,6 +23,7 @@ pub(crate) struct Gate {
 }
 
 /// Up to eight triangles from anywhere in the tree.
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct Few {
     pub block: TriangleBlock,
     /// Their primitives.
@@ -159,7 +160,7 @@ impl Gate {
 }
 
 impl Few {
-    const NONE: Few = Few {
+    pub const NONE: Few = Few {
         block: TriangleBlock { corners: [[[0.0; WIDTH]; 3]; 3], edge: [0.0; WIDTH] },
         ids: [NO_PRIM; WIDTH],
         from: [(0, 0); WIDTH],
@@ -168,7 +169,7 @@ impl Few {
 
     /// Adds the triangles `lanes` of a leaf; there is room for them.
     #[inline(always)]
-    fn take(&mut self, of: &TriangleTree, leaf: usize, mut lanes: u32) {
+    pub fn take(&mut self, of: &TriangleTree, leaf: usize, mut lanes: u32) {
         let (block, ids) = (&of.blocks[leaf], &of.tree.leaves[leaf]);
         while lanes != 0 {
             let (lane, to) = (lanes.trailing_zeros() as usize % WIDTH, self.count % WIDTH);

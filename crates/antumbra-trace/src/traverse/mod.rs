@@ -22,6 +22,7 @@ mod shapes;
 mod sixteen;
 mod triangles;
 mod vector;
+mod walls;
 
 pub(crate) use ask::{Ask, Asking, Best, Masks, Opaque};
 pub(crate) use boxes::{VisitAny, VisitNearest, any_hit, nearest_hit};
@@ -34,3 +35,4 @@ pub(crate) use ready::CHUNK;
 pub use rules::Ways;
 pub(crate) use shapes::{Numbered, ShapeTree, ShapeVisit};
 pub(crate) use triangles::{AnyTriangle, ExactTriangles, NearestTriangle, TriangleTree};
+pub(crate) use walls::walls;

@@ -1,7 +1,7 @@
 //! Sixteen lines on their way through a tree together. A node's boxes are first met by the shaft of all of them, eight
 //! at once, then by each line, sixteen at once; a leaf block's triangles by sixteen lines, one after the other.
 
-use fearless_simd::{Simd, f32x16, mask32x16, prelude::*};
+use fearless_simd::{Simd, f32x16, mask32x16, prelude::*, u32x16};
 
 use super::ask::{Ask, Masks};
 use super::boxes::{FAR_SLACK, STACK, Stack, prefetch};
@@ -52,6 +52,14 @@ impl Jobs {
     }
 }
 
+/// What the packets of a chunk ask.
+pub(super) struct Course<'a> {
+    /// These triangles first.
+    pub few: &'a [Few],
+    /// Then what is below this node.
+    pub root: Option<&'a Node>,
+}
+
 /// A packet on its way.
 pub(super) struct Packet<'a, S: Simd, M> {
     chunk: &'a Chunk<'a, M>,
@@ -95,9 +103,31 @@ impl<'a, S: Simd, M: Masks> Packet<'a, S, M> {
         (Packet { chunk, first, boxes, lines, c: V3::splat(simd, c), q: far, shaft }, own)
     }
 
+    /// Which of the lines `live` are blocked, but for those that are left to `jobs`.
+    #[inline(always)]
+    pub fn follow<const OWN: bool>(
+        &self,
+        simd: S,
+        course: &Course<'_>,
+        live: u32,
+        jobs: &mut Jobs,
+        turns: &mut Turns,
+    ) -> u32 {
+        let mut left = live;
+        for few in course.few {
+            if left != 0 {
+                left &= !self.few::<OWN>(simd, few, left, turns);
+            }
+        }
+        if let Some(root) = course.root {
+            left &= !self.through::<OWN>(simd, root, left, jobs, turns);
+        }
+        live & !left
+    }
+
     /// Which of the lines `live` are blocked by what is below `root`, but for those that are left to `jobs`.
     #[inline(always)]
-    pub fn through<const OWN: bool>(
+    fn through<const OWN: bool>(
         &self,
         simd: S,
         root: &Node,
@@ -185,18 +215,14 @@ impl<'a, S: Simd, M: Masks> Packet<'a, S, M> {
     fn leaf<const OWN: bool>(&self, simd: S, leaf: usize, mask: u32, turns: &mut Turns) -> u32 {
         let (of, ids) = (self.chunk.of, &self.chunk.of.tree.leaves[leaf]);
         let count = present(ids).count_ones() as usize;
-        turns.packet_leaves += 1;
-        turns.packet_triangles += count;
-        self.triangles::<OWN>(simd, (&of.blocks[leaf], ids, count), mask, |lane| (leaf, lane))
+        self.triangles::<OWN>(simd, (&of.blocks[leaf], ids, count), mask, |lane| (leaf, lane), turns)
     }
 
     /// Which of the lines `mask` a few triangles block.
     #[inline(always)]
-    pub fn few<const OWN: bool>(&self, simd: S, few: &Few, mask: u32, turns: &mut Turns) -> u32 {
-        turns.packet_leaves += 1;
-        turns.packet_triangles += few.count;
+    fn few<const OWN: bool>(&self, simd: S, few: &Few, mask: u32, turns: &mut Turns) -> u32 {
         let place = |k: usize| (few.from[k].0 as usize, few.from[k].1 as usize);
-        self.triangles::<OWN>(simd, (&few.block, &few.ids, few.count), mask, place)
+        self.triangles::<OWN>(simd, (&few.block, &few.ids, few.count), mask, place, turns)
     }
 
     /// Which of the lines `mask` the first `count` triangles of a block hit, where `place` says whence they are.
@@ -207,13 +233,16 @@ impl<'a, S: Simd, M: Masks> Packet<'a, S, M> {
         (block, ids, count): (&TriangleBlock, &LeafIds, usize),
         mask: u32,
         place: impl Fn(usize) -> (usize, usize),
+        turns: &mut Turns,
     ) -> u32 {
+        turns.packet_leaves += 1;
         let seen = Seen::of::<S, OWN>(simd, block, self.c, self.q);
         let mut left = mask;
         for (lane, &id) in ids.iter().enumerate().take(count) {
+            turns.packet_triangles += 1;
             let met = self.lines.test::<OWN>(simd, &seen, lane, left);
             if met.hit | met.open != 0 {
-                left &= !self.decide(id, place(lane), &met);
+                left &= !self.decide(simd, id, place(lane), &met);
                 if left == 0 {
                     break;
                 }
@@ -224,22 +253,42 @@ impl<'a, S: Simd, M: Masks> Packet<'a, S, M> {
 
     /// Which lines triangle `id` blocks, of those that do or may hit it.
     #[inline(always)]
-    fn decide(&self, id: u32, (leaf, lane): (usize, usize), met: &Met) -> u32 {
-        let chunk = self.chunk;
-        let (mut left, mut out) = (met.hit | met.open, 0);
+    fn decide(&self, simd: S, id: u32, (leaf, lane): (usize, usize), met: &Met) -> u32 {
+        let mut out = 0;
+        let mut left = met.hit | met.open;
+        if !M::ASK {
+            out = met.hit & !self.skips(simd, id);
+            left = met.open;
+        }
         while left != 0 {
             let line = left.trailing_zeros();
             left &= left - 1;
-            let ask = Ask::world(chunk.segments, chunk.from + self.first + line as usize, chunk.masks);
-            let certain = met.hit >> line & 1;
-            let blocked = if certain == 1 && !M::ASK {
-                !ask.skips(id)
-            } else {
-                id != NO_PRIM && blocks(chunk.of, &ask, leaf, 1 << lane, certain << lane)
-            };
-            out |= u32::from(blocked) << line;
+            out |= u32::from(self.blocks(id, (leaf, lane), line, met.hit >> line & 1)) << line;
         }
         out
+    }
+
+    /// Whether triangle `id` blocks one line, which hits it if `certain` is 1.
+    #[inline(never)]
+    #[cold]
+    fn blocks(&self, id: u32, (leaf, lane): (usize, usize), line: u32, certain: u32) -> bool {
+        let chunk = self.chunk;
+        let ask = Ask::world(chunk.segments, chunk.from + self.first + line as usize, chunk.masks);
+        id != NO_PRIM && blocks(chunk.of, &ask, leaf, 1 << lane, certain << lane)
+    }
+
+    /// Which lines start or end on triangle `id`.
+    #[inline(always)]
+    fn skips(&self, simd: S, id: u32) -> u32 {
+        let (segments, at) = (self.chunk.segments, self.chunk.from + self.first);
+        let of = |ids: &[u32]| match ids.get(at..at + PACKET) {
+            Some(all) => u32x16::from_slice(simd, all).simd_eq(u32x16::splat(simd, id)).to_bitmask() as u32,
+            None => {
+                let rest = ids.get(at..).unwrap_or_default();
+                rest.iter().enumerate().fold(0, |out, (k, it)| out | u32::from(*it == id) << k)
+            }
+        };
+        of(segments.first) | of(segments.last)
     }
 }
 

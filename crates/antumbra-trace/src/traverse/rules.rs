@@ -3,7 +3,7 @@
 //!
 //! | rule | measured by |
 //! |---|---|
-//! | a chunk goes one of three ways ([`Way`]): the one that took the least work a line so far | [`Turns`], by kind of line |
+//! | a chunk goes one of four ways ([`Way`]): the one that took the least work a line so far | [`Turns`], by kind of line |
 //! | the other ways are tried again, more and more seldom | [`SELDOM`] chunks at most between two trials |
 //! | eight triangles or fewer behind a shaft are tested without boxes, by packets | `gate.rs` |
 //! | a packet has a shaft of its own where its ends are closer together than half the scene | `packet.rs` |
@@ -29,6 +29,8 @@ pub enum Ways {
     Together,
     /// A packet for every sixteen lines.
     Packets,
+    /// The largest triangles first.
+    Walls,
     /// Each line for itself.
     Alone,
 }
@@ -42,9 +44,11 @@ pub(super) enum Way {
     Packets,
     /// The same behind a shaft of all lines of the chunk.
     Shaft,
+    /// Sixteen lines side by side against the largest triangles; then each line for itself.
+    Walls,
 }
 
-const WAYS: [Way; 3] = [Way::Shaft, Way::Packets, Way::Alone];
+const WAYS: [Way; 4] = [Way::Shaft, Way::Packets, Way::Walls, Way::Alone];
 
 /// What is known of one kind of lines.
 #[derive(Clone, Copy, Debug)]
@@ -120,6 +124,8 @@ pub(super) struct Turns {
     /// Lines in flight, at a node and at a leaf block.
     pub nodes: usize,
     pub leaves: usize,
+    /// Lines made ready for boxes.
+    pub ready: usize,
     /// Nodes that a shaft looked into.
     pub looks: usize,
     /// Packets; their nodes, boxes met by sixteen lines, leaf blocks, and triangles tested.
@@ -136,7 +142,8 @@ impl Turns {
     fn cost(&self, large: bool) -> f32 {
         let [alone, wait] = if large { LARGE } else { SMALL };
         let sum = |parts: &[(usize, f32)]| parts.iter().map(|(n, ns)| *n as f32 * ns).sum::<f32>();
-        sum(&[(self.nodes, alone[0]), (self.leaves, alone[1]), (self.looks, 15.0 + wait[0])])
+        sum(&[(self.ready, 3.0), (self.nodes, alone[0]), (self.leaves, alone[1])])
+            + self.looks as f32 * (15.0 + wait[0])
             + sum(&[(self.packets, 90.0), (self.packet_nodes, 15.0 + wait[0]), (self.packet_boxes, 6.0)])
             + sum(&[(self.packet_leaves, 35.0 + wait[1]), (self.packet_triangles, 6.0)])
     }
@@ -177,6 +184,7 @@ impl Rules {
             Ways::Measured => WAYS[self.memory.kinds[kind].choose()],
             Ways::Together => Way::Shaft,
             Ways::Packets => Way::Packets,
+            Ways::Walls => Way::Walls,
             Ways::Alone => Way::Alone,
         };
         Choice { way, kind }
@@ -205,7 +213,7 @@ mod tests {
     #[test]
     fn the_cheapest_way_is_found_and_left() {
         let mut kind = Kind::NEW;
-        for cheap in [2, 0, 1] {
+        for cheap in [2, 0, 3, 1] {
             let chosen: Vec<usize> = (0..2000)
                 .map(|_| {
                     let way = kind.choose();

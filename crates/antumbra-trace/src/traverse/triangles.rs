@@ -6,6 +6,7 @@ use super::ask::{Ask, Best, Masks};
 use super::boxes::{VisitAny, VisitNearest, prefetch};
 use super::exact::{Count, ExactVisit};
 use super::filter::{Interval, TriangleRay, Verdict, filter, filter_with_t};
+use super::gate::Few;
 use super::measure;
 use super::ray::{FastLine, Limits};
 use crate::NO_PRIM;
@@ -21,6 +22,8 @@ pub(crate) struct TriangleTree {
     /// Which lanes of a leaf are masked; empty if none is.
     pub masked: Vec<u8>,
     pub limits: Limits,
+    /// Its largest triangles (`walls.rs`).
+    pub walls: Vec<Few>,
 }
 
 /// A line on its way through a [`TriangleTree`], looking for anything; `PLACED`: in the space of an instance.

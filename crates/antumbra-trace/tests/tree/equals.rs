@@ -27,7 +27,7 @@ fn flat(geometry: u32, masked: bool) -> Instance {
 
 /// Every level in every way that any-hit queries may go.
 fn levels_and_ways() -> impl Iterator<Item = (SimdLevel, Ways)> {
-    let ways = [Ways::Measured, Ways::Together, Ways::Packets, Ways::Alone];
+    let ways = [Ways::Measured, Ways::Together, Ways::Packets, Ways::Walls, Ways::Alone];
     SimdLevel::available().into_iter().flat_map(move |level| ways.map(|ways| (level, ways)))
 }
 
