@@ -114,6 +114,8 @@ pub fn classes(scene: &Scene, world: &World) -> Vec<Class> {
     let mut r = Rng(11);
     let (centre, half) = scene.light;
     let infinity = f32::INFINITY;
+    // Beside the centre, which may be a point of an edge of the scene's own lamp: every ray would end there exactly.
+    let point = [centre[0] + 0.4 * half, centre[1] - 0.5 * half, centre[2] + 0.2 * half];
     let mut light = |at: &Receiver, k: usize, r: &mut Rng| {
         let [u, v] = stratum(k, r);
         let q = [centre[0] + half * (2.0 * u - 1.0), centre[1], centre[2] + half * (2.0 * v - 1.0)];
@@ -135,7 +137,7 @@ pub fn classes(scene: &Scene, world: &World) -> Vec<Class> {
     let mut out = vec![
         made("area light", &all, 1, &mut light),
         made("area light × 16", &few, STRATA, &mut light),
-        made("point light", &all, 1, &mut |at, _, _| (sub(centre, at.p), 1.0)),
+        made("point light", &all, 1, &mut |at, _, _| (sub(point, at.p), 1.0)),
         made("sun", &all, 1, &mut |_, _, _| ([0.4, 0.8, 0.3], infinity)),
         made("ambient", &all, 1, &mut |at, k, r| (cosine(at.n, k, r), infinity)),
         made("ambient × 16", &few, STRATA, &mut |at, k, r| (cosine(at.n, k, r), infinity)),

@@ -254,11 +254,12 @@ impl<'a, S: Simd, M: Masks> Packet<'a, S, M> {
     /// Which lines triangle `id` blocks, of those that do or may hit it.
     #[inline(always)]
     fn decide(&self, simd: S, id: u32, (leaf, lane): (usize, usize), met: &Met) -> u32 {
+        let counts = !self.skips(simd, id);
+        let mut left = (met.hit | met.open) & counts;
         let mut out = 0;
-        let mut left = met.hit | met.open;
         if !M::ASK {
-            out = met.hit & !self.skips(simd, id);
-            left = met.open;
+            out = met.hit & counts;
+            left = met.open & counts;
         }
         while left != 0 {
             let line = left.trailing_zeros();
