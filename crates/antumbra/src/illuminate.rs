@@ -13,7 +13,7 @@ use crate::light::sampler::Scratch as LightWeights;
 use crate::light::{End, LightId};
 use crate::receiver::Receiver;
 use crate::sampler::{AnySampler, PassPlan};
-use crate::scene::{Look, Ray, Scene};
+use crate::scene::{Errand, Look, Ray, Scene};
 use crate::sensor::{Looking, Scratch, Sensor, Tile};
 
 /// What is to be computed.
@@ -285,17 +285,17 @@ fn follow(job: &Job<'_>, receivers: &[Receiver], film: &mut Film, b: &mut Buffer
             }
             continue;
         };
-        let met = job.scene.meet(&ray, &job.look);
-        if let (Some((light, radiance)), true) = (met.emitted, job.shadows) {
-            find(light, radiance);
-        }
-        b.next.push(Receiver {
+        let errand = Errand {
             cell: from.cell,
             stream: if onward.branch == 0 { from.stream } else { hash::hash2(from.stream, onward.branch) },
             index: from.index,
             throughput: onward.throughput * survival,
             bounce: from.bounce + 1,
-            ..met.receiver
-        });
+        };
+        let met = job.scene.meet_for(errand, &ray, &job.look);
+        if let (Some((light, radiance)), true) = (met.emitted, job.shadows) {
+            find(light, radiance);
+        }
+        b.next.push(met.receiver);
     }
 }

@@ -32,6 +32,10 @@ impl BsdfKind for Conductor {
         true
     }
 
+    fn has_lobes(&self) -> bool {
+        false
+    }
+
     fn albedo(&self) -> Rgb {
         self.reflectance * fresnel::average(|mu| fresnel::conductor(mu, self.metal.eta, self.metal.k))
     }

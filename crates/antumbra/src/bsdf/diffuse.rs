@@ -40,6 +40,10 @@ impl BsdfKind for Diffuse {
         if wo.cos() <= 0.0 { 0.0 } else { wi.cos().max(0.0) * real::INV_PI }
     }
 
+    fn has_lobes(&self) -> bool {
+        false
+    }
+
     fn albedo(&self) -> Rgb {
         self.albedo
     }

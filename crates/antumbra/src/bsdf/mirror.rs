@@ -27,6 +27,10 @@ impl BsdfKind for Mirror {
         true
     }
 
+    fn has_lobes(&self) -> bool {
+        false
+    }
+
     #[inline]
     fn albedo(&self) -> Rgb {
         self.reflectance

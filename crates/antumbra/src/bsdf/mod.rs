@@ -63,6 +63,10 @@ pub trait BsdfKind {
     }
     /// Draws ω_i; `None` if nothing is reflected.
     fn sample(&self, wo: Local, u: [f32; 3]) -> Option<BsdfSample>;
+    /// `sample` looks at its third number.
+    fn has_lobes(&self) -> bool {
+        true
+    }
     /// p(ω_i) of `sample` [1/sr]; 0 for single directions.
     #[inline]
     fn pdf(&self, _wo: Local, _wi: Local) -> f32 {
@@ -109,6 +113,11 @@ macro_rules! kinds {
             #[inline]
             pub fn sample(&self, wo: Local, u: [f32; 3]) -> Option<BsdfSample> {
                 match self { $(Bsdf::$kind(b) => b.sample(wo, u)),* }
+            }
+            /// See [`BsdfKind::has_lobes`].
+            #[inline]
+            pub fn has_lobes(&self) -> bool {
+                match self { $(Bsdf::$kind(b) => b.has_lobes()),* }
             }
             /// See [`BsdfKind::pdf`].
             #[inline]

@@ -84,6 +84,10 @@ impl BsdfKind for RoughConductor {
         0.25 * self.facets.d(wo.0 + wi.0) * self.facets.seen(wo)
     }
 
+    fn has_lobes(&self) -> bool {
+        false
+    }
+
     /// The mean of F times what masking leaves.
     fn albedo(&self) -> Rgb {
         let mean = fresnel::average(|mu| fresnel::conductor(mu, self.metal.eta, self.metal.k));

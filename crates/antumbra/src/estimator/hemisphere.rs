@@ -37,7 +37,8 @@ impl Directions {
     pub(super) fn draw(self, at: &Receiver, u: &Draws<'_>, nth: Nth) -> Option<Direction> {
         let [u0, u1] = u.pair(at, Use::Direction, nth);
         let drawn = if self.follows(&at.bsdf) {
-            let s = at.bsdf.sample(at.wo, [u0, u1, u.one(at, Use::Lobe, nth)])?;
+            let lobe = if at.bsdf.has_lobes() { u.one(at, Use::Lobe, nth) } else { 0.0 };
+            let s = at.bsdf.sample(at.wo, [u0, u1, lobe])?;
             Direction { wi: at.to_world(s.wi), local: s.wi, throughput: s.throughput, density: s.density }
         } else {
             let map = if self == Directions::Uniform { warp::hemisphere } else { warp::cosine_hemisphere };

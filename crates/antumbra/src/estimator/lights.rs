@@ -68,6 +68,8 @@ impl Lights {
         let choose = match options.lights {
             LightChoice::All => None,
             LightChoice::Auto if n <= AUTO_ALL => None,
+            // Nothing to choose.
+            _ if n <= 1 => None,
             LightChoice::Auto if n > AUTO_CONTRIBUTION => Some(Choose::Power),
             LightChoice::Auto | LightChoice::Contribution => Some(Choose::Contribution),
             LightChoice::Uniform => Some(Choose::Uniform),
@@ -197,7 +199,9 @@ impl Lights {
     #[inline]
     pub fn out_of_reach(&self, scene: &Scene, at: &Receiver, wi: World) -> bool {
         let along = scene.along();
-        along.few() && along.lights(scene.lights(), (at.p, at.prim), wi).next().is_none()
+        along.few()
+            && !along.everywhere()
+            && along.lights(scene.lights(), (at.p, at.prim), wi).next().is_none()
     }
 
     /// The factor by which a wrong estimator differs from the right one.

@@ -8,6 +8,9 @@ use super::{End, Light, LightId};
 /// Tested together: what the compiler turns into SIMD lanes.
 const LANES: usize = 8;
 
+/// So few lights are asked without a look at their spheres.
+const DIRECT: usize = 2;
+
 /// More lights than this take longer to test than a ray takes to find one.
 const FEW: usize = 64;
 
@@ -16,6 +19,8 @@ const FEW: usize = 64;
 pub struct Along {
     lanes: Vec<Lanes>,
     few: bool,
+    infinite: Vec<LightId>,
+    everywhere: bool,
 }
 
 impl Along {
@@ -25,10 +30,25 @@ impl Along {
         let mut lanes = vec![Lanes::NOWHERE; if few { lights.len().div_ceil(LANES) } else { 0 }];
         for (i, light) in lights.iter().enumerate().filter(|_| few) {
             if !light.is_delta() {
-                lanes[i / LANES].set(i % LANES, light);
+                lanes[i / LANES].set(i % LANES, light, lights.len() <= DIRECT);
             }
         }
-        Along { lanes, few }
+        let infinite = lights.iter().zip(0..).filter(|(light, _)| light.is_infinite());
+        let around = |light: &Light| light.is_infinite() && light.bounds().cos_spread <= -1.0;
+        let (infinite, everywhere) = (infinite.map(|(_, id)| id).collect(), lights.iter().any(around));
+        Along { lanes, few, infinite, everywhere }
+    }
+
+    /// Some light lies along every direction.
+    #[inline]
+    pub fn everywhere(&self) -> bool {
+        self.everywhere
+    }
+
+    /// The lights at infinity.
+    #[inline]
+    pub fn infinite(&self) -> &[LightId] {
+        &self.infinite
     }
 
     /// They are so few that a direction asks them instead of sending a ray to find them.
@@ -47,7 +67,8 @@ impl Along {
         wi: World,
     ) -> impl Iterator<Item = (LightId, End, PrimId)> + 'a {
         let near = self.lanes.iter().enumerate().flat_map(move |(block, lanes)| {
-            Set(lanes.near(from, wi)).map(move |lane| (block * LANES) as LightId + lane)
+            Set(if lanes.all > 0 { lanes.all } else { lanes.near(from, wi) })
+                .map(move |lane| (block * LANES) as LightId + lane)
         });
         let end = move |light: LightId| {
             let (end, prim) = lights[light as usize].end_along(from, wi)?;
@@ -75,15 +96,18 @@ impl Iterator for Set {
 #[derive(Clone, Copy, Debug)]
 struct Lanes {
     center: [[f32; LANES]; 3],
-    /// Twice the squared radius; −1: no sphere, +∞: everywhere.
+    /// Twice the squared radius; −∞: no sphere, +∞: everywhere.
     reach2: [f32; LANES],
+    /// The lights, if they are so few that all are near.
+    all: u32,
 }
 
 impl Lanes {
     /// No lights.
-    const NOWHERE: Lanes = Lanes { center: [[0.0; LANES]; 3], reach2: [-1.0; LANES] };
+    const NOWHERE: Lanes = Lanes { center: [[0.0; LANES]; 3], reach2: [f32::NEG_INFINITY; LANES], all: 0 };
 
-    fn set(&mut self, k: usize, light: &Light) {
+    fn set(&mut self, k: usize, light: &Light, near: bool) {
+        self.all |= u32::from(near) << k;
         let bounds = light.bounds();
         self.reach2[k] = f32::INFINITY;
         if bounds.low.is_finite() && bounds.high.is_finite() {
@@ -105,10 +129,9 @@ impl Lanes {
             let distance2 = x * x + y * y + z * z;
             let reach2 = self.reach2[k];
             let ahead = (x * d.x + y * d.y + z * d.z > 0.0) | (distance2 <= reach2);
-            let meets = (off2 <= reach2 + 1e-11 * distance2) & (reach2 >= 0.0) & ahead;
-            *near = u32::from(meets) << k;
+            *near = u32::from((off2 <= reach2 + 1e-11 * distance2) & ahead);
         }
-        near.iter().fold(0, |set, bit| set | bit)
+        (0..LANES).fold(0, |set, k| set | near[k] << k)
     }
 }
 

@@ -101,8 +101,11 @@ impl Lanes {
         let near = (distance2 < 9.0 * self.reach2[k]) | (height * height <= self.reach2[k]) | edge_on;
         let over = 1.0 / distance2;
         let signed = facing * over * (height * over);
-        let lit = if signed > 0.0 { signed } else { -signed * self.back[k] };
-        let weight = if height > 0.0 { lit * self.luminance[k] } else { 0.0 };
+        // Without a branch, for the lanes.
+        let front = if signed > 0.0 { signed } else { 0.0 };
+        let back = if signed < 0.0 { -signed } else { 0.0 };
+        let weight = (front + back * self.back[k]) * self.luminance[k];
+        let weight = if height > 0.0 { weight } else { 0.0 };
         if near { f32::NAN } else { weight }
     }
 }

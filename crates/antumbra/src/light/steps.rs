@@ -60,8 +60,9 @@ pub fn share_out_fast(weights: &[f32], ends: &mut [u32]) -> bool {
     }
     let sum = sums.iter().sum::<f32>() + rest.iter().map(|w| usable(*w)).sum::<f32>();
     let count = counts.iter().sum::<u32>() + rest.iter().filter(|w| **w > 0.0).count() as u32;
-    let scale = (STEPS - count.min(STEPS)) as f32 * KEPT / sum;
-    if !(scale.is_normal() && sum.is_finite()) {
+    // A step for each, and one for its rounding.
+    let scale = STEPS.saturating_sub(2 * count) as f32 * KEPT / sum;
+    if !((0.5 * scale).is_normal() && sum.is_finite()) {
         let mut exact = Vec::new();
         share_out(weights.iter().copied(), &mut exact);
         exact.resize(ends.len(), 0);
@@ -69,7 +70,9 @@ pub fn share_out_fast(weights: &[f32], ends: &mut [u32]) -> bool {
         return count > 0;
     }
     for (end, w) in ends.iter_mut().zip(weights) {
-        *end = if *w > 0.0 { (*w * scale) as i32 as u32 + 1 } else { 0 };
+        // Halved, a number of steps is a whole number where 2²³ is added: its bits, without a conversion.
+        let half = (usable(*w) * (0.5 * scale) + 8_388_608.0).to_bits() & 0x007f_ffff;
+        *end = 2 * half + u32::from(*w > 0.0);
     }
     let mut run = 0;
     for end in ends.iter_mut() {

@@ -26,7 +26,7 @@ fn exact_grid(n: u32) -> [u32; 2] {
 }
 
 impl Sampler for Regular {
-    #[inline]
+    #[inline(never)]
     fn pair(&self, stream: u32, index: u32, of: u32, dimension: Dimension) -> [f32; 2] {
         let of = of.max(1);
         let [columns, rows] = exact_grid(of);

@@ -27,7 +27,8 @@ pub(super) fn grid(n: u32) -> [u32; 2] {
 }
 
 impl Sampler for Stratified {
-    #[inline]
+    // Long: taken into every question it would slow down the samplers that are asked most.
+    #[inline(never)]
     fn pair(&self, stream: u32, index: u32, of: u32, dimension: Dimension) -> [f32; 2] {
         let key = hash::hash2(stream, dimension.0);
         let [columns, rows] = grid(of);

@@ -62,6 +62,9 @@ impl Scene {
             _ => &self.materials[id as usize],
         };
         let mut material = side(at.0.material);
+        if !matches!(material.surface, Surface::Blend { .. }) {
+            return material;
+        }
         // Not the number that alpha took.
         let mut number = hash::hash2(number, BLENDED);
         while let Surface::Blend { first, second, weight } = material.surface {

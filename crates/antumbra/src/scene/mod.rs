@@ -30,6 +30,6 @@ pub use place::Start;
 pub use reflects::Surface;
 pub use roughness::{Channel, Roughness};
 pub use scene::{Emits, LightNames, Placed, Scene, SceneMesh, SceneVisibility};
-pub use surface::{Look, Met, Ray};
+pub use surface::{Errand, Look, Met, Ray};
 pub use suspect::Surfaces;
 pub use tangents::Tangents;

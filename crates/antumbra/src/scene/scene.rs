@@ -172,8 +172,10 @@ impl Scene {
 
     /// Light from infinity along `wi`, with the light it comes from.
     pub fn from_infinity(&self, wi: Direction) -> impl Iterator<Item = (LightId, Rgb)> + '_ {
-        let infinite = self.lights.iter().enumerate().filter(|(_, l)| l.is_infinite());
-        infinite.filter_map(move |(i, l)| l.hit(Direction::ZERO, wi).map(|h| (i as LightId, h.radiance)))
+        let met = move |id: &LightId| {
+            self.lights[*id as usize].hit(Direction::ZERO, wi).map(|hit| (*id, hit.radiance))
+        };
+        self.along.infinite().iter().filter_map(met)
     }
 
     /// Light that every light would send to `p` along `wi`, were nothing in the way.

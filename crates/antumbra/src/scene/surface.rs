@@ -34,10 +34,32 @@ pub struct Ray {
     pub number: u32,
 }
 
+/// For whom a ray looks: what the receiver that it makes takes over.
+#[derive(Clone, Copy, Debug)]
+pub struct Errand {
+    /// See [`Receiver::cell`].
+    pub cell: u32,
+    /// See [`Receiver::stream`].
+    pub stream: u32,
+    /// See [`Receiver::index`].
+    pub index: u32,
+    /// See [`Receiver::throughput`].
+    pub throughput: Rgb,
+    /// See [`Receiver::bounce`].
+    pub bounce: u32,
+}
+
+impl Default for Errand {
+    /// The first number of a pixel without a name.
+    fn default() -> Errand {
+        Errand { cell: 0, stream: 0, index: 0, throughput: Rgb::WHITE, bounce: 0 }
+    }
+}
+
 /// A surface that a ray met.
 #[derive(Clone, Copy, Debug)]
 pub struct Met {
-    /// The point, ready to ask for light (cell, stream, throughput are the caller's).
+    /// The point, ready to ask for light.
     pub receiver: Receiver,
     /// L_e toward where the ray came from, and the light it belongs to.
     pub emitted: Option<(LightId, Rgb)>,
@@ -46,8 +68,14 @@ pub struct Met {
 }
 
 impl Scene {
-    /// The surface where `ray` met it.
+    /// The surface where `ray` met it, for nobody in particular.
     pub fn meet(&self, ray: &Ray, look: &Look) -> Met {
+        self.meet_for(Errand::default(), ray, look)
+    }
+
+    /// The surface where `ray` met it.
+    pub fn meet_for(&self, errand: Errand, ray: &Ray, look: &Look) -> Met {
+        let Errand { cell, stream, index, throughput, bounce } = errand;
         let Ray { o, d, t, prim, uv, number } = *ray;
         let (object, local) = self.locate(prim);
         let place = self.place(object, local, o.as_dvec3() + d.as_dvec3() * t, uv);
@@ -74,11 +102,11 @@ impl Scene {
             wo: frame.to_local(wo),
             frame,
             bsdf,
-            cell: 0,
-            stream: 0,
-            index: 0,
-            throughput: Rgb::WHITE,
-            bounce: 0,
+            cell,
+            stream,
+            index,
+            throughput,
+            bounce,
         };
         let emitted = self.light_of(object, local).and_then(|light| self.light_toward(light, wo, front));
         Met { receiver, emitted, shown: self.shown(material, (object, local, uv), look) }

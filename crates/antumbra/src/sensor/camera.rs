@@ -7,7 +7,7 @@ use super::{Looking, Scratch, Seen, Sensor, Tile, grid};
 use crate::film::{Film, Planes};
 use crate::receiver::Receiver;
 use crate::sampler::{AnySampler, Use, stream};
-use crate::scene::{Camera, Lens, Projection, Ray};
+use crate::scene::{Camera, Errand, Lens, Projection, Ray};
 
 /// Sides of a tile: enough rays for a batch, small enough to keep all cores busy.
 const TILE: [u32; 2] = [32, 32];
@@ -162,13 +162,12 @@ impl Sensor for CameraSensor {
         out: &mut Vec<Receiver>,
     ) {
         let (replicate, index, of) = looking.passes.locate(pass);
-        let pixel_of = |cell: u32| {
-            [self.view.crop[0] + tile.x + cell % tile.width, self.view.crop[1] + tile.y + cell / tile.width]
-        };
+        let [left, top, ..] = self.view.crop;
+        let rows = (0..tile.height).map(|y| top + tile.y + y);
+        let pixels = rows.flat_map(|y| (0..tile.width).map(move |x| [left + tile.x + x, y]));
         scratch.rays.clear();
         scratch.streams.clear();
-        for cell in 0..tile.cells() {
-            let pixel = pixel_of(cell);
+        for pixel in pixels {
             let stream = self.stream(pixel, looking.seed, replicate);
             scratch.streams.push(stream);
             let (o, d) = self.sample(pixel, looking.sampler, (stream, index, of));
@@ -186,16 +185,18 @@ impl Sensor for CameraSensor {
                 continue;
             }
             let (t, prim, uv, number) = (hits.t[i], hits.prim[i], hits.uv[i], rays.number[i]);
-            let met = looking.scene.meet(&Ray { o, d, t, prim, uv, number }, &looking.look);
+            let errand = Errand { cell, stream: scratch.streams[i], index, ..Errand::default() };
+            let met = looking.scene.meet_for(errand, &Ray { o, d, t, prim, uv, number }, &looking.look);
             if let (Some((_, radiance)), Seen::Light) = (met.emitted, looking.seen) {
                 note_light(film, cell, radiance);
             }
             if !met.shown.is_black() && looking.seen == Seen::Light {
                 note_light(film, cell, met.shown);
             }
-            let receiver = Receiver { cell, stream: scratch.streams[i], index, ..met.receiver };
-            note_surface(film, &receiver, hits.t[i] as f32);
-            out.push(receiver);
+            if film.planes().has(OF_SURFACES) {
+                note_surface(film, &met.receiver, hits.t[i] as f32);
+            }
+            out.push(met.receiver);
         }
     }
 
@@ -222,6 +223,9 @@ fn note_light(film: &mut Film, cell: u32, radiance: Rgb) {
     film.add(Planes::BEAUTY, cell, radiance);
     film.add(Planes::EMISSION, cell, radiance);
 }
+
+/// The planes about what is seen.
+const OF_SURFACES: Planes = Planes::ALBEDO.union(Planes::NORMAL).union(Planes::POSITION).union(Planes::DEPTH);
 
 /// What is seen, for the planes that want it.
 fn note_surface(film: &mut Film, at: &Receiver, depth: f32) {

@@ -73,8 +73,8 @@ impl Image {
         let i = y as usize * self.width as usize + x as usize;
         match &self.texels {
             Texels::Srgb8(t) => {
-                let [r, g, b, a] = t[i];
-                [SRGB.0[r as usize], SRGB.0[g as usize], SRGB.0[b as usize], f32::from(a) / 255.0]
+                let ([r, g, b, a], linear) = (t[i], &SRGB.0);
+                [linear[r as usize], linear[g as usize], linear[b as usize], f32::from(a) / 255.0]
             }
             Texels::Linear8(t) => t[i].map(|c| f32::from(c) / 255.0),
             Texels::Float(t) => [t[i][0], t[i][1], t[i][2], 1.0],
@@ -166,8 +166,12 @@ impl Texture {
 }
 
 /// The texel that index `i` of `n` means.
+#[inline]
 fn wrap(i: i64, n: u32, how: Wrap) -> u32 {
     let n = i64::from(n);
+    if (0..n).contains(&i) {
+        return i as u32;
+    }
     let j = match how {
         Wrap::Repeat => i.rem_euclid(n),
         Wrap::Clamp => i.clamp(0, n - 1),

@@ -22,7 +22,7 @@ fn probabilities_sum_to_one() {
         let sampler = LightSampler::new(kind, &lights, RADIUS);
         assert_eq!(sampler.kind(), kind);
         for at in receivers() {
-            let mut scratch = Scratch::new();
+            let mut scratch = Scratch::default();
             let chooser = sampler.prepare(&lights, &at, &mut scratch);
             let sum: f64 = (0..lights.len()).map(|k| f64::from(chooser.prob(k as u32))).sum();
             assert_eq!(sum, 1.0, "{kind:?}");
@@ -45,7 +45,7 @@ fn frequency_is_probability() {
     for (i, &kind) in Choose::ALL.iter().enumerate() {
         let sampler = LightSampler::new(kind, &lights, RADIUS);
         for (r, at) in receivers().into_iter().enumerate() {
-            let mut scratch = Scratch::new();
+            let mut scratch = Scratch::default();
             let chooser = sampler.prepare(&lights, &at, &mut scratch);
             let mut counts = vec![0; lights.len()];
             for j in 0..N {
@@ -71,7 +71,7 @@ fn every_way_has_the_same_mean_and_contribution_the_least_variance() {
         .iter()
         .map(|&kind| {
             let sampler = LightSampler::new(kind, &lights, RADIUS);
-            let mut scratch = Scratch::new();
+            let mut scratch = Scratch::default();
             let chooser = sampler.prepare(&lights, &at, &mut scratch);
             let (e, se) = mean((0..100_000).map(|i| {
                 let pick = chooser.pick(unit_f32(hash2(i, 77))).unwrap();
@@ -105,7 +105,7 @@ fn thousand_point_lights() {
     let total: f64 = e.iter().sum();
     let variance = |kind: Choose| {
         let sampler = LightSampler::new(kind, &lights, RADIUS);
-        let mut scratch = Scratch::new();
+        let mut scratch = Scratch::default();
         let chooser = sampler.prepare(&lights, &at, &mut scratch);
         let square: f64 = e.iter().enumerate().map(|(k, e)| e * e / f64::from(chooser.prob(k as u32))).sum();
         square - total * total
@@ -121,7 +121,7 @@ fn thousand_point_lights() {
 /// Nothing to choose, nothing that reaches, and more lights than contribution weighs.
 #[test]
 fn ends_of_the_range() {
-    let mut scratch = Scratch::new();
+    let mut scratch = Scratch::default();
     let at = receiver([0.0; 3], [0.0, 1.0, 0.0]);
     for &kind in Choose::ALL {
         let sampler = LightSampler::new(kind, &[], RADIUS);

@@ -21,11 +21,11 @@ impl LightSamplerKind for Contribution {
 
     fn prepare<'a>(&'a self, lights: &[Light], at: &Receiver, scratch: &'a mut Scratch) -> Chooser<'a> {
         // Weighed once: the sum needs every weight before the first share.
-        let mut weights = [0.0; MOST];
-        let weights = &mut weights[..lights.len().min(MOST)];
+        let Scratch { weights, ends } = scratch;
+        weights.resize(lights.len(), 0.0);
+        ends.resize(lights.len(), 0);
         self.far.weigh(lights, at, weights);
-        scratch.resize(weights.len(), 0);
-        let any = steps::share_out_fast(weights, scratch);
-        Chooser { ends: if any { scratch } else { &[] } }
+        let any = steps::share_out_fast(weights, ends);
+        Chooser { ends: if any { ends } else { &[] } }
     }
 }

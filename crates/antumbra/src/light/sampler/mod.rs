@@ -24,7 +24,11 @@ pub struct Pick {
 }
 
 /// Room that a thread keeps for what is computed once per receiver.
-pub type Scratch = Vec<u32>;
+#[derive(Clone, Debug, Default)]
+pub struct Scratch {
+    weights: Vec<f32>,
+    ends: Vec<u32>,
+}
 
 /// The probabilities of all lights at one receiver.
 #[derive(Clone, Copy, Debug)]
