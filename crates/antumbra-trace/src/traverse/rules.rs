@@ -137,7 +137,8 @@ pub(super) struct Turns {
 }
 
 impl Turns {
-    /// About how long that takes [ns], by the weights measured for docs/performance.md. In a `large` tree, one beyond
+    /// About how long that takes [ns]: weights with which the ways come out in the order in which they were measured
+    /// (docs/performance.md), not measured one by one. In a `large` tree, one beyond
     /// the caches, lines in flight hide what a packet waits for.
     fn cost(&self, large: bool) -> f32 {
         let [alone, wait] = if large { LARGE } else { SMALL };
