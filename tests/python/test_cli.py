@@ -163,8 +163,8 @@ def test_info_as_json_has_stable_keys(antumbra):
     found = json.loads(antumbra("info", "pillars", "--json").out)
     assert list(found) == [
         "name", "bytes", "seconds", "source", "triangles", "shapes", "meshes", "objects", "instances", "bounds",
-        "tree_bytes", "lights", "cameras", "materials", "masked_materials", "textures", "texture_bytes",
-        "largest_texture", "surfaces", "looks_wrong", "parameters", "messages",
+        "tree_bytes", "lights", "cameras", "materials", "masked_materials", "material_kinds", "textures",
+        "texture_bytes", "largest_texture", "surfaces", "looks_wrong", "parameters", "messages",
     ]  # fmt: skip
     assert found["name"] == "pillars" and found["triangles"] > 0
     listed = json.loads(antumbra("info", "--list", "--json").out)

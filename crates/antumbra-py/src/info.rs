@@ -1,9 +1,9 @@
 //! What is in a scene: counts for one line, and everything for `antumbra info`.
 
-use std::collections::HashSet;
+use std::collections::{BTreeMap, HashSet};
 
 use antumbra::light::Light;
-use antumbra::scene::{Alpha, Body, Camera, Emits, Projection, Scene, Surfaces};
+use antumbra::scene::{Alpha, Body, Camera, Emits, Projection, Scene, Surface, Surfaces};
 use antumbra::texture::Texels;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
@@ -57,6 +57,7 @@ impl PyScene {
         out.set_item("materials", scene.materials.len())?;
         let masked = scene.materials.iter().filter(|m| m.alpha != Alpha::Opaque).count();
         out.set_item("masked_materials", masked)?;
+        out.set_item("material_kinds", material_kinds(&scene))?;
         out.set_item("textures", scene.textures.len())?;
         out.set_item("texture_bytes", texture_bytes(&scene))?;
         let largest = scene.textures.iter().map(|t| [t.image.width, t.image.height]).max_by_key(area);
@@ -89,6 +90,31 @@ fn meshes(scene: &Scene) -> usize {
 
 fn area([width, height]: &[u32; 2]) -> u64 {
     u64::from(*width) * u64::from(*height)
+}
+
+/// How many materials of each kind there are, by the words that people use.
+fn material_kinds(scene: &Scene) -> BTreeMap<&'static str, usize> {
+    let mut counts = BTreeMap::new();
+    for material in scene.materials.iter() {
+        let word = match material.surface {
+            Surface::Diffuse { .. } if material.emission.is_some() => "light",
+            Surface::Diffuse { .. } => "diffuse",
+            Surface::Mirror { .. } => "mirror",
+            Surface::MetallicRoughness { .. } => "metallic-roughness",
+            Surface::Unlit { .. } => "unlit",
+            Surface::Conductor(_) => "metal",
+            Surface::RoughConductor(_) => "rough metal",
+            Surface::Dielectric(_) => "glass",
+            Surface::RoughDielectric(_) => "ground glass",
+            Surface::ThinDielectric(_) => "pane of glass",
+            Surface::RoughThinDielectric(_) => "pane of ground glass",
+            Surface::Plastic { .. } => "plastic",
+            Surface::RoughPlastic { .. } => "rough plastic",
+            Surface::Blend { .. } => "blend",
+        };
+        *counts.entry(word).or_default() += 1;
+    }
+    counts
 }
 
 /// What all meshes together are as surfaces: counts.

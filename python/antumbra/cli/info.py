@@ -240,7 +240,9 @@ def _materials(found: dict[str, Any]) -> str:
         if textures
         else ""
     )
-    return f"{found['materials']:,}{masks}{decoded}"
+    most_first = sorted(found["material_kinds"].items(), key=lambda kind: (-kind[1], kind[0]))
+    kinds = ", ".join(f"{n:,} {word}" for word, n in most_first)
+    return f"{kinds or 'none'}{masks}{decoded}"
 
 
 def _as_json(found: Any) -> str:
