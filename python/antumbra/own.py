@@ -23,6 +23,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterator
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -101,7 +102,7 @@ def render(
     table = settings.table()
     for option in options:
         if option in table and table[option].group != "Camera" and option not in _HEEDED:
-            raise OptionError(f"{option} belongs to the built-in estimators: {name} decides it itself")
+            raise OptionError(f"{option} is not heeded with a function as estimator ({name})")
     began = time.perf_counter()
     suggested = {key: word for key, word in core.suggested().items() if key in _HEEDED | {"size"}}
     words = {**suggested, **settings.words(options)}
@@ -127,20 +128,26 @@ def _one_pass(
     """What viewing rays see of the lights in one pass, and what the surfaces reflect, (H·W, 3)."""
     origins, directions = core.camera_rays(words, number)
     light = np.zeros((len(origins), 3))
+    asked = cache(lambda nth, paired: core.pass_numbers(words, number, nth, paired))
     for start in range(0, len(origins), RUN):
         run = slice(start, start + RUN)
-        o, d = origins[run], directions[run]
-        met = core.closest_hit(o, d, np.broadcast_to(np.inf, len(o)))
+        met = core.closest_hit(origins[run], directions[run], np.broadcast_to(np.inf, len(origins[run])))
         light[run] = met.emitted()
         (rows,) = np.isfinite(met.t()).nonzero()
         if len(rows):
-            at = Hit(core.closest_hit(o[rows], d[rows], np.broadcast_to(np.inf, len(rows))))
-
-            def pair(nth: int, paired: bool, rows: NDArray[np.intp] = rows + start) -> NDArray[np.float32]:
-                return core.pass_numbers(words, number, nth, paired)[rows]
-
-            light[rows + start] += checked(name, reflected(at, Numbers(pair)), len(rows))
+            at, numbers = Hit(met.take(rows.astype(np.uint64))), Numbers(_Rows(asked, rows + start))
+            light[rows + start] += checked(name, reflected(at, numbers), len(rows))
     return light
+
+
+class _Rows:
+    """The numbers of some pixels of a pass."""
+
+    def __init__(self, asked: Callable[[int, bool], NDArray[np.float32]], rows: NDArray[np.intp]) -> None:
+        self._asked, self._rows = asked, rows
+
+    def __call__(self, nth: int, paired: bool) -> NDArray[np.float32]:
+        return self._asked(nth, paired)[self._rows]
 
 
 def checked(name: str, answer: ArrayLike, count: int) -> NDArray[np.float64]:
@@ -179,7 +186,8 @@ class _Sums:
         )
         self.replicates = 1 if fixed else min(self.passes, 4 if self.passes < 256 else 16)
         self.sums = np.zeros((self.replicates, self.shape[0] * self.shape[1], 3))
-        self.counts = np.zeros(self.replicates)
+        begins = np.arange(self.replicates + 1) * self.passes // self.replicates
+        self.counts, self.lengths = np.zeros(self.replicates), np.diff(begins)
         self.done = 0
 
     def add(self, number: int, light: NDArray[np.float64]) -> None:
@@ -190,18 +198,25 @@ class _Sums:
 
     def image(self, scene: str, began: float) -> Image:
         mean = self.sums.sum(axis=0) / self.done
-        full = self.counts > 0
-        error = None
-        if full.sum() > 1:
-            each = self.sums[full] / self.counts[full, None, None]
-            error = (each.std(axis=0, ddof=1) / np.sqrt(full.sum())).reshape(self.shape).astype(np.float32)
+        error = self._standard_error()
         told = {**self.metadata, "antumbra.passes": f"{self.done} of {self.passes}"}
         rays = self.done * self.shape[0] * self.shape[1]
         picture = _core.Picture.from_parts(
             mean.reshape(self.shape).astype(np.float32),
-            error,
+            None if error is None else error.reshape(self.shape).astype(np.float32),
             [],
             [*told.items()],
             (self.done, self.passes, 0, rays, self.window),
         )
         return Image(picture, name=scene, seconds=time.perf_counter() - began)
+
+    def _standard_error(self) -> NDArray[np.float64] | None:
+        """√(Σ w_r (m_r − m)² / ((R − 1) Σ w_r)) over the R replicates that are complete, w_r their passes."""
+        closed = self.counts == self.lengths
+        if closed.sum() < 2:
+            return None
+        weights = self.counts[closed, None, None]
+        means = self.sums[closed] / weights
+        mean = (weights * means).sum(axis=0) / weights.sum()
+        scatter = (weights * (means - mean) ** 2).sum(axis=0)
+        return np.asarray(np.sqrt(scatter / ((closed.sum() - 1) * weights.sum())), np.float64)

@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from antumbra import _core, settings
 from antumbra._arrays import matching, places
+from antumbra.errors import OptionError
 from antumbra.hit import Hit, Receivers
 
 
@@ -34,6 +35,16 @@ class LightsFound(NamedTuple):
 
     radiance: NDArray[np.float32]
     pdf: NDArray[np.float32]
+
+
+def _words(options: dict[str, Any]) -> list[tuple[str, str]]:
+    """Options of light points; one light is drawn for each receiver, never all of them."""
+    words = settings.words(options)
+    if words.get("lights") == "all":
+        raise OptionError(
+            'lights = all: one light is drawn here; "uniform", "power" or "contribution" chooses it'
+        )
+    return [*words.items()]
 
 
 class Pieces:
@@ -66,13 +77,14 @@ class Pieces:
         Light that arrives = f · radiance · cos θ / pdf, if the segment to the target is free. Where no light can
         reach, radiance is 0, pdf and distance are 1; lights without size have p(light) as pdf and their irradiance as
         radiance.
-        Options: `lights` (how one is chosen: "uniform", "power", "contribution") and `light_points`.
+        Options: `lights` (how one is chosen: "uniform", which is the default here, "power", "contribution") and
+        `light_points`.
         """
         if u is None:
             raise TypeError("u is missing: three numbers in [0, 1) per point are needed, (N, 3)")
         start, facing, count = places(points, normals)
         cube = matching("u", u, "points", count)
-        words = list(settings.words(options).items())
+        words = _words(options)
         return LightSamples(*self._core.sample_light(start, facing, cube, words))
 
     def find_light(
@@ -92,7 +104,7 @@ class Pieces:
             raise TypeError("directions are missing: one per point is needed, (N, 3)")
         start, facing, count = places(points, normals)
         toward = matching("directions", directions, "points", count)
-        words = list(settings.words(options).items())
+        words = _words(options)
         return LightsFound(*self._core.find_light(start, facing, toward, words))
 
     def brdf(self, hit: Hit | Receivers, wo: ArrayLike, wi: ArrayLike) -> NDArray[np.float32]:

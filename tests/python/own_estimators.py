@@ -17,20 +17,32 @@ def area(scene, at, u):
     return f * s.radiance * (cosine(at, s.direction) * free / s.pdf)[:, None]
 
 
-def toward(n, pair, even=False):
-    """Unit vectors about n with density cos θ/π, or 1/(2π)."""
+def about(n, z, turn):
+    """Unit vectors with n · ω = z, turned about n."""
     x = np.where(np.abs(n[:, :1]) < 0.9, [[1.0, 0, 0]], [[0, 1.0, 0]])
     t = np.cross(n, x)
     t /= np.linalg.norm(t, axis=1, keepdims=True)
-    z = pair[:, :1] if even else np.sqrt(1 - pair[:, :1])
-    r, phi = np.sqrt(1 - z**2), 2 * np.pi * pair[:, 1:]
+    r, phi = np.sqrt(1 - z**2), 2 * np.pi * turn
     return r * (np.cos(phi) * t + np.sin(phi) * np.cross(n, t)) + z * n
+
+
+def toward(n, pair, even=False):
+    """Unit vectors about n with density cos θ/π, or 1/(2π)."""
+    return about(n, pair[:, :1] if even else np.sqrt(1 - pair[:, :1]), pair[:, 1:])
 
 
 def hemisphere(scene, at, u):
     """L = f_r L_e cos θ / p(ω), ω with density cos θ/π."""
     wi = toward(at.shading_normal, u(2))
     return scene.brdf(at, at.wo, wi) * scene.find_light(at, directions=wi).radiance * np.pi
+
+
+def cubed(scene, at, u):
+    """ω with density 3 cos² θ/(2π): rarely toward a low lamp."""
+    pair = u(2)
+    z = np.cbrt(1 - pair[:, :1])
+    wi = about(at.shading_normal, z, pair[:, 1:])
+    return scene.brdf(at, at.wo, wi) * scene.find_light(at, directions=wi).radiance * (2 * np.pi / (3 * z))
 
 
 def mis(scene, at, u):
@@ -134,7 +146,7 @@ def even_openness(scene, at, u):
     return 1.0 - scene.occluded(at, directions=toward(at.normal, u(2), even=True))
 
 
-RIGHT = [area, hemisphere, mis]
+RIGHT = [area, hemisphere, cubed, mis]
 # Each with words of what the check must say.
 WRONG = {
     "no cosine": (spoiled(lambda s, cos: 1 / np.maximum(cos, 1e-6)), "cos θ at the receiver is missing"),

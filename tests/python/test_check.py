@@ -43,7 +43,8 @@ def test_openness_passes_and_its_even_twin_does_not(coarse):
 
 
 @pytest.mark.parametrize("fault", WRONG)
-@pytest.mark.parametrize("seed", range(100 if STRESS else 1))
+# 300 of 300 caught: more than 99 % are, at a confidence of 95 %.
+@pytest.mark.parametrize("seed", range(300 if STRESS else 1))
 def test_each_planted_fault_is_caught_and_named(coarse, fault, seed):
     estimator, words = WRONG[fault]
     report = am.check(estimator, seed=seed)
@@ -54,10 +55,10 @@ def test_each_planted_fault_is_caught_and_named(coarse, fault, seed):
 
 @pytest.mark.parametrize("estimator", RIGHT, ids=lambda e: e.__name__)
 def test_false_alarms_are_rare(estimator, coarse):
-    checks = 1000 if STRESS else 5
+    checks = 5000 if STRESS else 5
     failed = sum(not am.check(estimator, seed=seed).passed for seed in range(checks))
-    # Stated: below 10⁻³ a check; α = 2e-4 is used up. More than one of 1,000 then has probability 0.02.
-    assert failed <= (1 if STRESS else 0)
+    # Stated: below 10⁻³ a check. At the 2e-4 that are meant, more than 3 of 5,000 have probability 0.02.
+    assert failed <= (3 if STRESS else 0)
 
 
 def test_the_lamps_are_known_twice():
@@ -69,7 +70,25 @@ def test_the_lamps_are_known_twice():
 def test_an_answer_that_is_no_light_is_the_fault():
     report = am.check(lambda scene, at, u: np.full(len(at), np.nan))
     assert not report.passed
+    assert len(report.faults) == 1
     assert "finite numbers are needed" in report.faults[0]
+
+
+def test_a_limit_of_noise_that_nobody_asks_is_refused():
+    with pytest.raises(ValueError, match="the name of a question"):
+        am.check(RIGHT[0], noise={"lamp overhead ": 1.0})
+
+
+def test_a_file_is_run_as_python_runs_it(antumbra):
+    Path("beside.py").write_text("RHO = 0.5\n", encoding="utf-8")
+    text = (
+        "from __future__ import annotations\nfrom dataclasses import dataclass\n\n"
+        "@dataclass\nclass A:\n    x: int = 1\n\n"
+        "def estimator(scene, at, u):\n    from beside import RHO\n\n    return at.t * 0 + RHO\n"
+    )
+    Path("mine.py").write_text(text, encoding="utf-8")
+    ended = antumbra("check", "mine.py")
+    assert ended.code == 1, ended.err
 
 
 RIGHT_FILE = (Path(__file__).parent / "own_estimators.py").read_text(encoding="utf-8")

@@ -195,6 +195,11 @@ impl Hits {
         self.receivers.table(py, |i| Some(light(i).0.map(f64::from)))
     }
 
+    /// Those of these numbers.
+    fn take(&self, numbers: PyReadonlyArray1<'_, u64>) -> PyResult<Hits> {
+        self.receivers.take(numbers).map(|receivers| Hits { receivers })
+    }
+
     /// The same points for further queries.
     fn receivers(&self) -> Receivers {
         let Receivers { scene, rays, origin } = &self.receivers;

@@ -24,7 +24,7 @@ LAMPS = {
     "lamp low at the side": Lamp((2.4, 0.8, 0), (-2.4, -0.8, 0), 0.8),
     "lamp turned away": Lamp((0, 2.0, 0), (1.6, -1, 0), 0.8),
     "lamp low and turned": Lamp((-1.8, 1.0, 0.6), (0.2, -1.0, 0), 0.9),
-    "lamp half below the horizon": Lamp((2.0, 0.1, 0), (-1, 0, 0), 0.8),
+    "lamp half below the horizon": Lamp((1.2, 0.15, 0), (-1, 0, 0), 1.2),
 }
 RHO = 0.8
 

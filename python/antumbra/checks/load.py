@@ -48,13 +48,13 @@ def _run(path: str) -> ModuleType:
     if spec is None or spec.loader is None:
         raise SceneError("is no Python file", file=path, hint="Its name ends in .py.")
     module = importlib.util.module_from_spec(spec)
+    # As `python FILE.py` has it: modules beside the file are found, also later.
+    sys.modules[module.__name__] = module
     sys.path.insert(0, str(Path(path).parent.resolve()))
     try:
         spec.loader.exec_module(module)
     except (Exception, SystemExit) as problem:
         raise failed(path, problem) from problem
-    finally:
-        sys.path.pop(0)
     return module
 
 

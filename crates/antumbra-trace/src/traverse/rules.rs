@@ -1,4 +1,4 @@
-//! Which way a chunk of lines goes: measured rules, all in this file. They change how long an answer takes, never the
+//! Which way a chunk of lines goes: rules by counted work, all in this file. They change how long an answer takes, never the
 //! answer.
 //!
 //! | rule | measured by |

@@ -66,6 +66,8 @@ struct Lights<'a> {
     scene: &'a Scene,
     sampler: LightSampler,
     how: LightPoints,
+    /// Middle and radius of all there is.
+    around: (World, f32),
 }
 
 impl<'a> Lights<'a> {
@@ -76,7 +78,16 @@ impl<'a> Lights<'a> {
             _ => Choose::Uniform,
         };
         let sampler = LightSampler::new(choose, scene.lights(), scene.radius());
-        Lights { scene, sampler, how: settings.light_points }
+        let [low, high] = scene.bounds().unwrap_or_default();
+        let around = ((low + high) / 2.0, (high - low).length() / 2.0);
+        Lights { scene, sampler, how: settings.light_points, around }
+    }
+
+    /// A point along `wi` beyond all there is.
+    fn beyond(&self, at: &Receiver, wi: World) -> World {
+        let start = World::from(at.start);
+        let (middle, radius) = self.around;
+        start + wi * (2.0 * ((start - middle).length() + radius)).max(1.0)
     }
 
     fn chooser<'s>(&'s self, at: &Receiver, scratch: &'s mut Scratch) -> Chooser<'s> {
@@ -88,7 +99,7 @@ impl<'a> Lights<'a> {
         let s = self.scene.lights()[pick.light as usize].sample(at, u, self.how)?;
         let target = match s.end {
             End::Point(q) => q,
-            End::Infinity => World::from(at.start) + s.wi * (4.0 * self.scene.radius() + 4.0 * at.p.length()),
+            End::Infinity => self.beyond(at, s.wi),
         };
         let mut drawn = LightDraw {
             direction: s.wi.to_array(),

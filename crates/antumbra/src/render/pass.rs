@@ -50,11 +50,6 @@ impl Pass {
         })
     }
 
-    /// The replicate that the pass belongs to.
-    pub fn replicate(&self) -> u32 {
-        self.plan.locate(self.number).0
-    }
-
     fn sample_of(&self, pixel: [u32; 2]) -> (u32, u32, u32) {
         let (replicate, index, of) = self.plan.locate(self.number);
         (self.sensor.stream(pixel, self.seed, replicate), index, of)

@@ -24,7 +24,7 @@ def about(n, z, phi):
 
 def estimator(scene, at, u):
     pair = u(2)
-    z = np.cbrt(pair[:, :1])
+    z = np.cbrt(1 - pair[:, :1])
     wi = about(at.shading_normal, z, 2 * np.pi * pair[:, 1:])
     pdf = 1.0  # GAP
     light = scene.find_light(at, directions=wi).radiance

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from antumbra.lecture.chapters import BOUNCES
 from antumbra.lecture.figure import Claim, Equation, Figure, Number, Pick, Question, Variant
 from antumbra.lecture.measures.noise import luminances
-from antumbra.lecture.measures.ratio import ratio, times
+from antumbra.lecture.measures.ratio import ratio, squared
 from antumbra.lecture.measures.replicates import mean_of
 from antumbra.lecture.measures.slopes import Errors
 from antumbra.lecture.quantity import Quantity
@@ -34,7 +34,7 @@ def _measure(run: Run) -> Mapping[str, Quantity]:
     errors = _errors(run)
     gain = errors.divided("chance", 16, "asked", 16)
     chance, asked = (mean_of(luminances(run, f"{way}-256").mean((1, 2))) for way in WAYS)
-    return errors.slopes(FITTED) | {"paths": times(gain, gain), "same": ratio(chance, asked)}
+    return errors.slopes(FITTED) | {"paths": squared(gain), "same": ratio(chance, asked)}
 
 
 def _pictures(run: Run, way: str, white: float) -> list[Picture]:
@@ -81,7 +81,8 @@ FIGURE = Figure(
         "the lamp, it must not count again."),
     claims=[
         Claim("One path that asks the lamp is worth more than 50 that do not.", "paths", above=50, main=True, measured="× {paths}"),
-        Claim("Both errors fall alike: as N to the −½.", "chance", near=-0.5, within=0.05, measured="slopes {chance} and {asked}"),
+        Claim("The error of paths by chance falls as N to the −½.", "chance", near=-0.5, within=0.05, measured="slope {chance}"),
+        Claim("So does that of paths that ask.", "asked", near=-0.5, within=0.05, measured="slope {asked}"),
         Claim("Both have the same mean.", "same", near=1.0, within=0.02, measured="ratio {same} with 256 paths"),
     ],
 )  # fmt: skip

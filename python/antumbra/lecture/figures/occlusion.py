@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from antumbra.lecture.chapters import OCCLUSION
 from antumbra.lecture.figure import Claim, Equation, Figure, Number, Pick, Question, Variant
 from antumbra.lecture.measures.noise import luminances
-from antumbra.lecture.measures.ratio import ratio, times
+from antumbra.lecture.measures.ratio import ratio, squared
 from antumbra.lecture.measures.replicates import mean_of
 from antumbra.lecture.measures.slopes import Errors
 from antumbra.lecture.quantity import Quantity
@@ -43,7 +43,7 @@ def _measure(run: Run) -> Mapping[str, Quantity]:
     gain = errors.divided("random", 64, "owen", 64)
     mine, truth = (mean_of(luminances(run, key).mean((1, 2))) for key in ("owen-256", "truth"))
     near = {f"open-{r}": mean_of(luminances(run, f"radius-{r}").mean((1, 2)), "%") for r in RADII}
-    return errors.slopes(FITTED) | near | {"worth": times(gain, gain), "same": ratio(mine, truth)}
+    return errors.slopes(FITTED) | near | {"worth": squared(gain), "same": ratio(mine, truth)}
 
 
 # fmt: off

@@ -24,6 +24,12 @@ def times(a: Quantity, b: Quantity, unit: str = "", note: str = "") -> Quantity:
     return Quantity(a.value * b.value, math.hypot(a.error * b.value, b.error * a.value), unit, note)
 
 
+def squared(a: Quantity, unit: str = "", note: str = "") -> Quantity:
+    """a² of a positive quantity, its interval end by end."""
+    low, high = a.interval
+    return of_interval(Interval(a.value**2, max(low, 0.0) ** 2, high**2), unit, note)
+
+
 def excess(share: Quantity) -> Quantity:
     """A ratio less 1, in per cent."""
     low, high = share.interval
