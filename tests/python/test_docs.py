@@ -44,14 +44,14 @@ def room(data, tmp_path, monkeypatch):
     for name, value in (("ours.exr", 0.5), ("reference.exr", 0.6)):
         _core.write_picture(str(tmp_path / name), np.full((8, 8, 3), value, np.float32))
     (own,) = [code for page, code in blocks("python") if page == "own.md"]
-    (tmp_path / "mine.py").write_text(own.split("\n\n\nimage =")[0], encoding="utf-8")
+    (tmp_path / "mine.py").write_text(own, encoding="utf-8")
     monkeypatch.chdir(tmp_path)
 
 
 @pytest.mark.parametrize(("page", "code"), blocks("python"))
 def test_python_of_the_pages(page, code, room):
     coarse = re.sub(r"(viewing_rays|shadow_rays|rays)=\d[\d_]*", r"\1=2", code)
-    exec(compile(coarse, page, "exec"), {})
+    exec(compile(coarse, page, "exec"), {"__name__": "__main__"})
 
 
 # What follows a wide gap is a remark.

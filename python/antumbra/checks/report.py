@@ -38,11 +38,12 @@ class Report:
     def __str__(self) -> str:
         """A table, and below it what is wrong."""
         wide = max((len(row.name) for row in self.rows), default=0)
-        lines = [f"  {'':{wide}}  {'answer':>19}  {'truth':>8}"]
+        lines = [f"  {'':{wide}}  {'± standard error':>19}  {'truth':>8}"]
         for row in self.rows:
             answer = f"{row.answer:.5f} ± {row.error:.5f}"
             verdict = "agrees" if row.agrees else "wrong"
             lines.append(f"  {row.name:{wide}}  {answer:>19}  {row.truth:8.5f}  {verdict}")
         good = sum(row.agrees for row in self.rows)
-        lines.append(f"{self.name}: {good} of {len(self.rows)} agree · {self.seconds:.1f} s")
-        return "\n".join([*lines, *(f"  {fault}" for fault in self.faults)])
+        table = lines if self.rows else []
+        ending = f"{self.name}: {good} of {len(self.rows)} agree · {self.seconds:.1f} s"
+        return "\n".join([*table, ending, *(f"  {fault}" for fault in self.faults)])

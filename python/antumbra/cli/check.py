@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json as as_json
 import sys
+from pathlib import Path
 
 from antumbra.cli import _say
 from antumbra.cli._command import Option, Verb
@@ -20,7 +21,7 @@ def run(file: str, function: str | None, seed: int, json: bool, quiet: bool, ver
     from antumbra.checks import check
     from antumbra.checks.load import failed, load
 
-    if not quiet:
+    if not quiet and Path(file).is_file():
         _say.messages(file, [("note", "", "its code is run as it stands")])
     estimator, options = load(file, function)
     show = sys.stderr.isatty() and not quiet

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from antumbra.lecture.chapters import OCCLUSION
 from antumbra.lecture.figure import Claim, Equation, Figure, Number, Pick, Question, Variant
 from antumbra.lecture.measures.noise import luminances
-from antumbra.lecture.measures.ratio import ratio, squared
+from antumbra.lecture.measures.ratio import ratio, squared, times
 from antumbra.lecture.measures.replicates import mean_of
 from antumbra.lecture.measures.slopes import Errors
 from antumbra.lecture.quantity import Quantity
@@ -43,7 +43,11 @@ def _measure(run: Run) -> Mapping[str, Quantity]:
     gain = errors.divided("random", 64, "owen", 64)
     mine, truth = (mean_of(luminances(run, key).mean((1, 2))) for key in ("owen-256", "truth"))
     near = {f"open-{r}": mean_of(luminances(run, f"radius-{r}").mean((1, 2)), "%") for r in RADII}
-    return errors.slopes(FITTED) | near | {"worth": squared(gain), "same": ratio(mine, truth)}
+    return (
+        errors.slopes(FITTED)
+        | near
+        | {"worth": times(Quantity(64.0), squared(gain)), "same": ratio(mine, truth)}
+    )
 
 
 # fmt: off
@@ -74,10 +78,10 @@ FIGURE = Figure(
           for k, how in (("radius", "none"), ("faded", "linear")) for r in RADII),
     ],
     measure=_measure, stage=_stage, exr=["truth", "owen-256"],
-    answer=Number("worth", "So many random directions are worth one of 64 well spread ones. The slope of random ones is {random:1}, of owen {owen:1}.", before="× "),
+    answer=Number("worth", "So many random directions are worth 64 well spread ones. The slope of random ones is {random:1}, of owen {owen:1}."),
     equation=Equation([OCCLUSION], "Marked: V along a direction. With directions of density cos θ/π, AO is the share of rays that get away."),
     claims=[
-        Claim("Well spread directions are worth many random ones.", "worth", above=4, main=True, measured="× {worth} with 64"),
+        Claim("64 well spread directions are worth more than 256 random ones.", "worth", above=256, main=True, measured="{worth} are worth 64"),
         Claim("AO is the light of white walls under a white sky.", "same", near=1.0, within=0.01, measured="ratio {same} of the means"),
         Claim("Random directions: the error falls as N to the −½.", "random", near=-0.5, within=0.03, measured="slope {random}"),
     ],
