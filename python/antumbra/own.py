@@ -177,23 +177,19 @@ class _Sums:
         told, _ = core.render([*words.items(), ("bounces", "0"), ("passes", "1")], None)
         if told is None:
             raise RenderStopped(None)
-        pixels, _, _, metadata, (_, self.passes, _, _, self.window) = told.parts()
+        pixels, _, _, metadata, (_, _, _, _, self.window) = told.parts()
         self.shape, self.metadata = pixels.shape, dict(metadata)
         self.metadata["antumbra.estimator"] = f"{name} (a function of Python)"
         self.metadata.pop("antumbra.bounces", None)
-        fixed = (
-            self.metadata.get("antumbra.sampler") == "regular" and self.metadata["antumbra.rotate"] == "off"
-        )
-        self.replicates = 1 if fixed else min(self.passes, 4 if self.passes < 256 else 16)
-        self.sums = np.zeros((self.replicates, self.shape[0] * self.shape[1], 3))
-        begins = np.arange(self.replicates + 1) * self.passes // self.replicates
-        self.counts, self.lengths = np.zeros(self.replicates), np.diff(begins)
+        self.replicate_of = core.pass_replicates([*words.items()])
+        self.passes, self.lengths = len(self.replicate_of), np.bincount(self.replicate_of)
+        self.sums = np.zeros((len(self.lengths), self.shape[0] * self.shape[1], 3))
+        self.counts = np.zeros(len(self.lengths))
         self.done = 0
 
     def add(self, number: int, light: NDArray[np.float64]) -> None:
-        replicate = -(-(number + 1) * self.replicates // self.passes) - 1
-        self.sums[replicate] += light
-        self.counts[replicate] += 1
+        self.sums[self.replicate_of[number]] += light
+        self.counts[self.replicate_of[number]] += 1
         self.done += 1
 
     def image(self, scene: str, began: float) -> Image:

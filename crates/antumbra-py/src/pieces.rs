@@ -97,6 +97,14 @@ impl PyScene {
         Ok((self.places(py, rays.iter().map(|(o, _)| o.to_array()))?, directions.into_pyarray(py)))
     }
 
+    /// The replicate that each pass of a render belongs to.
+    #[staticmethod]
+    fn pass_replicates(words: Words) -> PyResult<Vec<u32>> {
+        let settings = settings::parse(&words)?;
+        let plan = settings.passes_of(settings.viewing_rays);
+        Ok((0..plan.count).map(|pass| plan.locate(pass).0).collect())
+    }
+
     /// (H·W, 2) float32: the numbers in [0, 1) that pass `number` of a render has for its `nth` pair, or the `nth` of
     /// the uses that take one number.
     fn pass_numbers<'py>(
