@@ -1,0 +1,137 @@
+"""Directions drawn from the BRDF, from the map, and from both: their errors under several skies."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from antumbra.hit import Hit
+from antumbra.lecture.measures.noise import luminances
+from antumbra.lecture.measures.ratio import ratio
+from antumbra.lecture.measures.replicates import mean_of, of_interval
+from antumbra.lecture.quantity import Quantity
+from antumbra.lecture.run import Run
+from antumbra.lecture.scenes.skies import GOLD, MIRROR, SKIES, SUNS, lights_of, under_skies
+from antumbra.lecture.variant import Pick
+from antumbra.study import statistics
+
+WAYS = ("brdf", "map", "mis")
+PARTS = ("all", "gold")
+# An open place on the table, in the sun at midday.
+OPEN = (0.6, 0.0, 2.4)
+# Half of the sun's angle in the sky [rad].
+_SUN = 0.533 / 2 * math.pi / 180
+SIZE = Pick((72, 48), (240, 160))
+# Near enough that the things fill the picture.
+VIEW = {"eye": (0.9, 1.75, 7.0), "look_at": (0.0, 0.8, 0.0), "fov": 0.43}
+# Of the query that asks the open place: independent estimates, and directions in each.
+_ESTIMATES, _DIRECTIONS = 4096, Pick(1000, 8000)
+
+
+def seen(run: Run) -> Hit:
+    """What the viewing ray of each pixel meets."""
+    scene = run.scene(under_skies)
+    found: Hit = run.once("seen", lambda: scene.closest_hit(*scene.camera_rays(run.pick(SIZE), **VIEW)))
+    return found
+
+
+def _mask(run: Run, part: str) -> NDArray[np.bool_]:
+    """The pixels (H, W) of the gold ball, or of all that is no background and no mirror."""
+
+    def on(ball: tuple[Any, float]) -> NDArray[np.bool_]:
+        found: NDArray[np.bool_] = np.linalg.norm(seen(run).position - ball[0], axis=1) < 1.01 * ball[1]
+        return found
+
+    width, height = run.pick(SIZE)
+    pixels = on(GOLD) if part == "gold" else np.isfinite(seen(run).t) & ~on(MIRROR)
+    return pixels.reshape(height, width)
+
+
+def noise(run: Run, sky: str, way: str, part: str) -> Quantity:
+    """Root of the variance of a pixel, mean over those of a part, over their mean light: from replicates alone.
+
+    Each replicate against the mean of all: (x − x̄)² K / (K − 1) has the variance as its mean.
+    """
+    mask = _mask(run, part)
+    each = luminances(run, f"{way}-{sky}")[:, mask]
+    squares = ((each - each.mean(0)) ** 2).mean(1) * len(each) / (len(each) - 1)
+    light = luminances(run, f"mis-{sky}")[:, mask].mean()
+    return of_interval(
+        statistics.Interval(*(end / light for end in statistics.root(statistics.mean(squares)))), "%"
+    )
+
+
+def noises(run: Run) -> dict[str, Quantity]:
+    """`way-sky-part` for all of them, and how they compare.
+
+    `insured`: the noise of MIS over that of the better of the others, where it is worst; `gilded`: that of the map
+    over that of the BRDF on the gold ball under the painted sky; `same`: mean light by the BRDF over that by both, in
+    the studio. A BRDF direction hardly ever meets a sun, so that what its
+    pictures show of their noise is too little: there the map is the better one.
+    """
+    found = {
+        f"{way}-{sky}-{part}": noise(run, sky, way, part) for sky in SKIES for way in WAYS for part in PARTS
+    }
+
+    def over_better(sky: str, part: str) -> Quantity:
+        others = [found[f"{way}-{sky}-{part}"] for way in (("map",) if sky in SUNS else ("map", "brdf"))]
+        return ratio(found[f"mis-{sky}-{part}"], min(others, key=lambda q: q.value))
+
+    worst = max((over_better(sky, part) for sky in SKIES for part in PARTS), key=lambda q: q.value)
+    mask = _mask(run, "all")
+    brdf, both = (mean_of(luminances(run, f"{way}-studio")[:, mask].mean(1)) for way in ("brdf", "mis"))
+    gilded = ratio(found["map-painted-gold"], found["brdf-painted-gold"])
+    return found | {"insured": worst, "gilded": gilded, "same": ratio(brdf, both)}
+
+
+def _asked(run: Run, seed: int, n: int, **options: Any) -> NDArray[np.float64]:
+    """Irradiance at the open place under the midday sky [W/m²], by many estimates of `n` directions each."""
+    found = run.scene(under_skies).irradiance(
+        np.tile(OPEN, (_ESTIMATES, 1)), (0.0, 1.0, 0.0), shadow_rays=n, seed=run.seeded(seed),
+        sampler="random", light=lights_of("midday"), **options,
+    )  # fmt: skip
+    return np.asarray(found, np.float64)[:, 1]
+
+
+def _variance(estimates: NDArray[np.float64], n: int) -> NDArray[np.float64]:
+    """Variance of one direction of `n` [W² m⁻⁴], from each of 16 groups of estimates."""
+    return np.asarray(n * estimates.reshape(16, -1).var(1, ddof=1), np.float64)
+
+
+def met_sun(run: Run) -> dict[str, Quantity]:
+    """`rare`: directions of density cos θ/π until one meets the midday sun; `worth`: how many of them one of the map's
+    has the variance of, sky and sun together. `disc`: the first by the closed form 1 / (sin² α cos θ). In thousands.
+    """
+    n = run.pick(_DIRECTIONS)
+    by_brdf = _asked(run, 1, n, estimator="hemisphere", directions="cosine")
+    by_map = _asked(run, 2, 16, estimator="area", lights="contribution")
+    # One direction that meets the sun lifts an estimate by π L / n, far over what the sky does.
+    jumps = by_brdf - np.median(by_brdf)
+    hits = float(np.round(jumps / jumps[jumps > jumps.max() / 8].min()).sum())
+    tried, spread = _ESTIMATES * n, 1.96 / math.sqrt(hits)
+    once = tried / hits / 1000
+    rare = of_interval(statistics.Interval(once, once / (1 + spread), once * (1 + spread)), "thousand")
+    closed = Quantity(1e-3 / (math.sin(_SUN) ** 2 * math.sin(SUNS["midday"].elevation)), unit="thousand")
+    worth = ratio(mean_of(_variance(by_brdf, n) / 1000), mean_of(_variance(by_map, 16)), "thousand")
+    return {"rare": rare, "disc": closed, "agree": ratio(rare, closed), "worth": worth}
+
+
+def same_scene(run: Run) -> dict[str, Quantity]:
+    """`moved`: pixels whose surface is another one under another sky; 0, bit by bit."""
+    layers = ("position", "normal", "albedo", "depth")
+    first = {name: run.aov(f"mis-{SKIES[0]}", name) for name in layers}
+    other = [
+        np.any(run.aov(f"mis-{sky}", name).view(np.uint32) != first[name].view(np.uint32))
+        for sky in SKIES
+        for name in layers
+    ]
+    return {"moved": Quantity(float(sum(other)))}
+
+
+def of_sphere(run: Run, radii: float) -> Quantity:
+    """Mean light in a sphere of light over that under the environment, less 1; both with the same directions."""
+    sphere, sky = (luminances(run, key).mean((1, 2)) for key in (f"sphere-{radii:g}", "sphere-none"))
+    return mean_of(sphere / sky - 1, "%")
