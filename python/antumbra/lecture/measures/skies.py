@@ -51,17 +51,11 @@ def _mask(run: Run, part: str) -> NDArray[np.bool_]:
 
 
 def noise(run: Run, sky: str, way: str, part: str) -> Quantity:
-    """Root of the variance of a pixel, mean over those of a part, over their mean light: from replicates alone.
-
-    Each replicate against the mean of all: (x − x̄)² K / (K − 1) has the variance as its mean.
-    """
+    """Standard deviation of a pixel, mean over those of a part, over their mean light: from replicates alone."""
     mask = _mask(run, part)
-    each = luminances(run, f"{way}-{sky}")[:, mask]
-    squares = ((each - each.mean(0)) ** 2).mean(1) * len(each) / (len(each) - 1)
+    found = statistics.root(statistics.variance(luminances(run, f"{way}-{sky}")[:, mask]))
     light = luminances(run, f"mis-{sky}")[:, mask].mean()
-    return of_interval(
-        statistics.Interval(*(end / light for end in statistics.root(statistics.mean(squares)))), "%"
-    )
+    return of_interval(statistics.Interval(*(end / light for end in found)), "%")
 
 
 def noises(run: Run) -> dict[str, Quantity]:
