@@ -18,7 +18,7 @@ from antumbra.lecture.quantity import Quantity
 from antumbra.lecture.run import Report, Run
 from antumbra.lecture.stages import Picture, plain
 from antumbra.lecture.variant import edition
-from antumbra.lecture.verdict import asked, verdict
+from antumbra.lecture.verdict import expected, verdict
 
 # What the two pictures of a chapter's opening take.
 _OPENING = Pick(0.7, 6.0)
@@ -211,7 +211,7 @@ def examine(figure: Figure, run: Run) -> dict[str, Any]:
             "text": claim.text.format(**measured),
             "verdict": verdict(claim, measured),
             "measured": (claim.measured or "measured {" + claim.of + "}").format(**measured)
-            + f" ({asked(claim, measured)})",
+            + f" ({expected(claim, measured)})",
             "of": claim.of,
             "main": claim.main,
         }

@@ -11,8 +11,8 @@ from antumbra.study.statistics import Interval, Verdict
 from antumbra.study.statistics import verdict as of_interval
 
 
-def asked(claim: Claim, measured: Mapping[str, Quantity]) -> str:
-    """What a claim asks of its quantity, its tolerance among it, as the page writes it."""
+def expected(claim: Claim, measured: Mapping[str, Quantity]) -> str:
+    """What a claim expects of its quantity, its tolerance among it, as the page writes it."""
     unit = measured[claim.of].unit
 
     def text(bound: float | str) -> str:
@@ -20,11 +20,11 @@ def asked(claim: Claim, measured: Mapping[str, Quantity]) -> str:
 
     if claim.near is not None:
         within = f"± {Quantity(claim.within, unit=unit)}"
-        return f"asked: within {within}" if claim.near == 0 else f"asked: {text(claim.near)}, {within}"
+        return f"expected within {within}" if claim.near == 0 else f"expected {text(claim.near)}, {within}"
     return (
-        f"asked: below {text(claim.below)}"
+        f"expected below {text(claim.below)}"
         if claim.below is not None
-        else f"asked: above {text(claim.above or 0.0)}"
+        else f"expected above {text(claim.above or 0.0)}"
     )
 
 

@@ -118,7 +118,7 @@ def test_a_figure_fits_its_page_and_its_slides(name, folder, browser):
     assert tab.evaluate(PLOTTED) >= 7.5
     tab.close()
     tab = browser.new_page(viewport={"width": 1280, "height": 720})
-    for step in range(4):
+    for step in range(5):
         tab.goto(f"{page}#slides/{name}/step={step}")
         tab.reload()
         assert tab.evaluate(OUTSIDE) == [], f"step {step} of the slide"

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from pathlib import Path
 
 import pytest
 from made_up import figure
@@ -12,6 +11,7 @@ import antumbra.lecture.page as page_module
 from antumbra.lecture import catalog
 from antumbra.lecture.keep import Folder
 from antumbra.lecture.make import Lecture
+from antumbra.lecture.page import slide
 
 WIDTHS = [(390, 844), (820, 1100), (1280, 720)]
 
@@ -75,14 +75,15 @@ def test_a_slider_moves_by_keyboard_and_says_its_value(open_page):
     tab = open_page("#one/answers")
     slider = tab.locator("#one input[type=range]")
     slider.focus()
-    assert slider.get_attribute("aria-valuetext") == "i = 1: <half>, and more"
-    tab.keyboard.press("ArrowRight")
-    assert slider.get_attribute("aria-valuetext").startswith("i = 2")
-    assert tab.locator("#one output").inner_text() == "i = 2: <half>"
-    assert tab.locator("#one .frames > li.on").get_attribute("data-v") == "2"
-    assert tab.locator("#one .key span").first.inner_text() == "fact 2"
+    assert slider.get_attribute("aria-valuetext") == "i = 2: <half>, and more"
+    tab.keyboard.press("ArrowLeft")
+    tab.keyboard.press("ArrowLeft")
+    assert slider.get_attribute("aria-valuetext").startswith("i = 0")
+    assert tab.locator("#one output").inner_text() == "i = 0: <half>"
+    assert tab.locator("#one .frames > li.on").get_attribute("data-v") == "0"
+    assert tab.locator("#one .key span").first.inner_text() == "fact 0"
     assert tab.locator("#one .draws svg:visible").count() == 1
-    assert address(tab) == "#one/answers/i=2"
+    assert address(tab) == "#one/answers/i=0"
 
 
 def test_tabs_are_one_stop_and_answer_to_arrows(open_page):
@@ -106,31 +107,73 @@ def test_a_row_and_its_ray_are_one_thing(open_page):
 
 
 def test_the_address_restores_what_was_seen(open_page):
-    tab = open_page("#one/i=2/sampler=owen/answers")
-    assert tab.locator("#one .frames > li.on").get_attribute("data-v") == "2"
+    tab = open_page("#one/i=0/sampler=owen/answers")
+    assert tab.locator("#one .frames > li.on").get_attribute("data-v") == "0"
     assert tab.locator("#one [role=tab][aria-selected=true]").inner_text() == "owen"
     assert tab.locator("#one .claims").is_visible() and tab.locator("#two .claims").is_visible()
     tab.evaluate("location.hash = '#two'")
-    tab.wait_for_function("document.querySelector('#one .frames > li.on').dataset.v == '1'")
+    tab.wait_for_function("document.querySelector('#one .frames > li.on').dataset.v == '2'")
     tab.evaluate("location.hash = '#nothing/i=%E0%A4%A'")
     assert tab.locator("#one").is_visible()
 
 
+@pytest.mark.parametrize("start", ["#nosuch", "#slides/nosuch"])
+def test_a_figure_that_is_not_there_is_said(open_page, start):
+    tab = open_page(start)
+    said = tab.locator("[role=status].say")
+    assert said.inner_text() == "There is no figure “nosuch”."
+    assert said.bounding_box()["height"] > 20 and tab.locator("h1").is_visible()
+    tab.evaluate("location.hash = '#one'")
+    tab.wait_for_function("!document.querySelector('#live').textContent")
+    assert said.bounding_box()["height"] <= 1
+
+
 def test_predict_first_then_the_number(open_page):
     tab = open_page()
-    assert not tab.locator("#one .ans").is_visible()
-    # Neither plots and tables nor readouts say it before.
-    assert tab.locator("#one :is(.data, .key span):visible").count() == 0
+    # Neither equation, plots and tables nor readouts say it before.
+    assert tab.locator("#one :is(.ans, .eqc, .claims, .data, .key span):visible").count() == 0
     assert tab.locator("#one output").inner_text() == "i = 1"
     slider = tab.locator("#one input[type=range]")
     assert slider.get_attribute("aria-valuetext") == "i = 1"
     tab.locator("#one .q button").nth(1).click()
-    assert slider.get_attribute("aria-valuetext") == "i = 1: <half>, and more"
-    assert tab.locator("#one .ans").is_visible()
-    assert tab.locator("#one .verdict").inner_text().startswith("Not so")
+    assert slider.get_attribute("aria-valuetext") == "i = 2: <half>, and more"
+    assert tab.locator("#one .ans").is_visible() and tab.locator("#one .eqc").is_visible()
+    assert tab.locator("#one .verdict").inner_text() == "Not so. Right: small. The number is below."
     assert not tab.locator("#two .ans").is_visible()
     tab.locator("#b-answers").click()
     assert tab.locator("#two .claims").is_visible() and address(tab).endswith("answers")
+
+
+def sign(tab, choice: str) -> str:
+    """What the page adds to a choice of figure `one`."""
+    after = "e => getComputedStyle(e, '::after').content.replaceAll('\"', '')"
+    return tab.locator("#one .q button", has_text=choice).evaluate(after).replace("none", "")
+
+
+def test_the_right_choice_is_marked_once_there_is_an_answer(open_page):
+    tab = open_page()
+    assert sign(tab, "small") == sign(tab, "large") == ""
+    tab.locator("#one .q button", has_text="large").click()
+    assert (sign(tab, "small"), sign(tab, "large")) == (" ✓ right", " ✗ your choice")
+    tab.locator("#one .q button", has_text="small").click()
+    assert (sign(tab, "small"), sign(tab, "large")) == (" ✓ right", "")
+    tab = open_page()
+    tab.locator("#one .ask button").click()
+    assert sign(tab, "small") == " ✓ right" and tab.locator("#one [aria-pressed=true]").count() == 0
+    assert tab.locator("#one .verdict[role=status]").inner_text() == "Right: small. The number is below."
+
+
+def test_the_slider_goes_to_what_the_number_is_of_unless_it_was_moved(open_page):
+    tab = open_page()
+    frame = tab.locator("#one .frames > li.on")
+    tab.locator("#one .ask button").click()
+    assert frame.get_attribute("data-v") == "2"
+    tab = open_page()
+    slider = tab.locator("#one input[type=range]")
+    slider.press("ArrowLeft")
+    tab.locator("#one .ask button").click()
+    assert tab.locator("#one .frames > li.on").get_attribute("data-v") == "0"
+    assert slider.get_attribute("aria-valuetext") == "i = 0: <half>, and more"
 
 
 def test_an_answer_that_the_run_does_not_support_is_not_asserted(open_page):
@@ -155,29 +198,103 @@ def test_a_table_that_goes_on_says_so(open_page):
     assert phone.evaluate(bar)
 
 
-def test_slides_step_by_keyboard_and_nothing_leaves_the_screen(open_page):
+def test_slides_step_by_keyboard(open_page):
     tab = open_page("#slides/one")
     seen = {"question": "#one .q > p", "picture": "#one .strip", "number": "#one .num1"}
+    frame = tab.locator("#one .frames > li.on")
     assert tab.locator(seen["question"]).is_visible() and not tab.locator(seen["picture"]).is_visible()
+    tab.locator("#one .q button", has_text="large").click()
+    assert sign(tab, "small") == sign(tab, "large") == ""
     tab.keyboard.press(" ")
     assert tab.locator(seen["picture"]).is_visible() and not tab.locator(seen["number"]).is_visible()
     # The readout says the value, not what it means.
-    assert tab.locator("#one output").inner_text() == "i = 1"
+    assert tab.locator("#one output").inner_text() == "i = 1" and frame.get_attribute("data-v") == "1"
     assert tab.locator("#one input[type=range]").get_attribute("aria-valuetext") == "i = 1"
-    tab.keyboard.press(" ")
-    assert tab.locator(seen["number"]).is_visible() and address(tab) == "#slides/one/step=2"
-    tab.keyboard.press(" ")
-    assert tab.locator("#one .eqc").is_visible() and tab.locator("#one .claims var").first.is_visible()
-    tab.keyboard.press("PageUp")
-    tab.keyboard.press("PageUp")
-    assert address(tab) == "#slides/one/step=1"
     tab.keyboard.press("ArrowRight")
+    assert tab.locator(seen["number"]).is_visible() and address(tab) == "#slides/one/step=2"
+    assert frame.get_attribute("data-v") == "2"
+    assert (sign(tab, "small"), sign(tab, "large")) == (" ✓ right", " ✗ your choice")
+    tab.keyboard.press("PageDown")
+    assert tab.locator("#one .eqc").is_visible() and not tab.locator("#one .claims").is_visible()
+    tab.keyboard.press(" ")
+    assert tab.locator("#one .claims var").first.is_visible() and address(tab) == "#slides/one/step=4"
+    for back in ("PageUp", "ArrowLeft", "Shift+ "):
+        tab.keyboard.press(back)
+    assert address(tab) == "#slides/one/step=1" and frame.get_attribute("data-v") == "1"
+    tab.keyboard.press("ArrowDown")
     assert address(tab) == "#slides/two"
+    tab.keyboard.press("ArrowLeft")
+    assert address(tab) == "#slides/one/step=4"
     shown = "[...e.querySelectorAll('p, button, h3, b')].filter(x => x.offsetParent)"
     sizes = f"e => {shown}.map(x => parseFloat(getComputedStyle(x).fontSize))"
-    assert min(tab.locator("#two").evaluate(sizes)) >= 28
+    assert min(tab.locator("#one").evaluate(sizes)) >= 28
     tab.keyboard.press("Escape")
-    assert address(tab) == "#two" and tab.locator(".bar").is_visible()
+    assert address(tab) == "#one" and tab.locator(".bar").is_visible()
+
+
+def test_slides_begin_with_the_title_and_each_chapter(open_page):
+    tab = open_page("#slides")
+    assert tab.locator("h1").is_visible() and not tab.locator(".toc").is_visible()
+    tab.keyboard.press("ArrowRight")
+    assert address(tab) == "#slides/ch1" and tab.locator("#ch1 h2").is_visible()
+    assert tab.locator("#ch1 .num").is_visible() and tab.locator("#ch1 math").is_visible()
+    tab.keyboard.press("ArrowRight")
+    assert address(tab) == "#slides/one"
+    tab.keyboard.press("End")
+    assert address(tab) == "#slides/two"
+    tab.keyboard.press("Home")
+    assert address(tab) == "#slides/top" and tab.locator("#live").inner_text() == "Direct illumination"
+
+
+def test_a_slider_and_a_tab_keep_their_arrows_on_a_slide(open_page):
+    tab = open_page("#slides/one/step=1")
+    tab.locator("#one input[type=range]").focus()
+    tab.keyboard.press("ArrowLeft")
+    assert tab.locator("#one .frames > li.on").get_attribute("data-v") == "0"
+    tab.locator("#one [role=tab]").first.focus()
+    tab.keyboard.press("ArrowRight")
+    assert tab.locator("#one [role=tab][aria-selected=true]").inner_text() == "owen"
+    assert "step=1" in address(tab)
+    # A moved slider stays where it is when the number comes.
+    tab.keyboard.press(" ")
+    assert "step=2" in address(tab) and "i=0" in address(tab)
+    assert tab.locator("#one .frames > li.on").get_attribute("data-v") == "0"
+
+
+@pytest.mark.parametrize("size", [(1280, 720), (1920, 1080)])
+def test_pictures_of_a_long_row_are_equal_on_a_slide(open_page, size):
+    tab = open_page("#slides/one/step=1", size)
+    widths = "e => [...e.querySelectorAll('img')].map(i => i.getBoundingClientRect().width)"
+    found = tab.locator("#one .row.many").evaluate(widths)
+    assert len(found) == 4 and max(found) - min(found) < 0.5
+
+
+def test_a_long_row_has_as_many_columns_as_make_its_pictures_largest():
+    def best(count: int, width: int, height: int) -> int:
+        return slide.columns([{"width": width, "height": height, "caption": "16 rays"}] * count)
+
+    assert [best(n, 196, 196) for n in (4, 5, 6)] == [4, 5, 3]
+    assert [best(n, 280, 196) for n in (4, 5, 6)] == [4, 3, 3]
+    assert best(4, 300, 100) == 2
+
+
+def luminance(rgb) -> float:
+    """Relative luminance of sRGB 0 to 1 (WCAG 2.2)."""
+    linear = [c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in rgb]
+    return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
+
+
+@pytest.mark.parametrize(("scheme", "brightest"), [("light", 1.0), ("dark", 0.5)])
+def test_drawings_are_quieter_in_the_dark_and_still_read(open_page, scheme, brightest):
+    tab = open_page("#one/i=0", color_scheme=scheme)
+    fills = "['rect', 'text'].map(s => getComputedStyle(e.querySelector(s)).fill)"
+    seen = f"e => [getComputedStyle(e).filter, ...{fills}]"
+    dim, *colours = tab.locator("#one .draws svg.on").evaluate(seen)
+    factor = float(dim[len("brightness(") : -1]) if dim != "none" else 1.0
+    ground, text = (
+        luminance([factor * int(c) / 255 for c in re.findall(r"\d+", colour)]) for colour in colours
+    )
+    assert ground < brightest and (ground + 0.05) / (text + 0.05) >= 4.5
 
 
 def test_without_script_everything_is_there(open_page):
@@ -224,10 +341,13 @@ def test_everything_has_a_name_for_the_ear(open_page):
     )
 
 
-def test_style_and_script_are_small():
-    here = Path(page_module.__file__).parent
-    assert sum((here / name).stat().st_size for name in ("page.css", "page.js")) <= 25_000
-    assert not re.search(r"fetch\(|canvas|XMLHttpRequest", (here / "page.js").read_text())
+def test_style_and_script_are_small(made):
+    # What a reader loads: the files themselves have comments and spaces for people.
+    page = (made / "index.html").read_text()
+    css, js = page_module.css(), page_module.js()
+    assert css in page and js in page
+    assert len(css.encode()) + len(js.encode()) <= 25_000
+    assert not re.search(r"fetch\(|canvas|XMLHttpRequest", js)
 
 
 def test_kept_results_make_the_same_page(made):

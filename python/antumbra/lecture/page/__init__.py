@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from antumbra import __version__
+from antumbra.lecture.page import slide, small
 
 _HERE = Path(__file__).parent
 HEAD = {
@@ -83,6 +84,7 @@ def _render(
         "aspect": aspect,
         "printed": printed,
         "scales": scales,
+        "slide": slide,
         "single": single,
     }
     # Nothing in the numbers can end the script element that holds them, or begin a comment in it.
@@ -96,9 +98,23 @@ def _render(
         foot=foot,
         data=numbers,
         ramps=Markup(_ramps()),
-        css=Markup((_HERE / "page.css").read_text(encoding="utf-8")),
-        js=Markup((_HERE / "page.js").read_text(encoding="utf-8")),
+        css=Markup(css()),
+        js=Markup(js()),
     )
+
+
+def css() -> str:
+    """The style of the page, as it stands in it."""
+    return small.style("".join(_source(f"{name}.css") for name in ("page", "figure", "slides", "media")))
+
+
+def js() -> str:
+    """The script of the page, as it stands in it."""
+    return f"(()=>{{{small.script(''.join(_source(f'{name}.js') for name in ('state', 'stages', 'slides')))}}})()"
+
+
+def _source(file: str) -> str:
+    return (_HERE / file).read_text(encoding="utf-8")
 
 
 def columns(cells: Sequence[Mapping[str, Any]]) -> str:

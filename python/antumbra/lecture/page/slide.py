@@ -1,0 +1,75 @@
+"""How much of a slide its pictures get: columns of a long row, heights of what stands around them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from math import ceil
+from typing import Any
+
+# Of a slide of 1280 × 720: what the pictures have of it, and the gap between them [px].
+_WIDTH, _HEIGHT, _GAP = 1184, 520, 24
+# Its type is 28 px: a line, the mean width of a character, the space over a caption [px].
+_LINE, _CHARACTER, _OVER = 34, 15, 8
+# Labels over columns (two lines), a slider, a key, tabs (one line), a colour bar and each more line of it [px].
+_LABELS, _SLIDER, _KEY, _TABS, _BAR, _NAME = 76, 52, 70, 64, 60, 40
+
+
+def columns(pictures: Sequence[Mapping[str, Any]]) -> int:
+    """In how many columns equal pictures, each over its caption, are seen largest."""
+    ratio: float = max(p["width"] / p["height"] for p in pictures)
+
+    def wide(count: int) -> float:
+        rows, width = ceil(len(pictures) / count), (_WIDTH - _GAP * (count - 1)) / count
+        return min(width, ratio * (_HEIGHT - _TABS - rows * _under(pictures, width)) / rows)
+
+    return max(range(1, len(pictures) + 1), key=wide)
+
+
+def rest(stage: Sequence[Mapping[str, Any]]) -> tuple[int, int]:
+    """What is not picture of a stage's height [px]: on the slide of the pictures, and on that of the number.
+
+    There labels and key are gone. Of two parts of a kind, panels of tabs among them, the higher one counts.
+    """
+    of: dict[str, int] = {}
+    for part in _parts(stage):
+        for what, height in _around(part):
+            of[what] = max(of.get(what, 0), height)
+    without = sum(height for what, height in of.items() if what not in ("labels", "key"))
+    return sum(of.values()), without
+
+
+def _parts(parts: Sequence[Mapping[str, Any]]) -> Iterator[Mapping[str, Any]]:
+    for part in parts:
+        yield part
+        for panel in part.get("panels", ()):
+            yield from _parts(panel["parts"])
+
+
+def _around(part: Mapping[str, Any]) -> Iterator[tuple[str, int]]:
+    """Kinds and heights of what stands around the pictures of one part."""
+    if part["kind"] == "key":
+        yield "key", _KEY
+    if part["kind"] == "tabs":
+        yield "tabs", _TABS
+    if part["kind"] == "strip":
+        yield "slider", _SLIDER
+        yield "labels", _LABELS if part["labels"] else 0
+        yield from (("bars", _bar(p)) for frame in part["frames"] for p in frame["pictures"])
+    if part["kind"] == "row":
+        pictures = part["pictures"]
+        count = columns(pictures)
+        rows, width = ceil(len(pictures) / count), (_WIDTH - _GAP * (count - 1)) / count
+        yield "captions", rows * _under(pictures, width) + _OVER * (rows - 1)
+        yield "bars", max(map(_bar, pictures))
+
+
+def _under(pictures: Sequence[Mapping[str, Any]], width: float) -> int:
+    """Height of the captions of a row."""
+    lines = max(ceil(_CHARACTER * len(p.get("caption", "")) / width) for p in pictures)
+    return lines and _OVER + _LINE * lines
+
+
+def _bar(picture: Mapping[str, Any]) -> int:
+    """Height of a colour bar: a line more for its unit, one for each name."""
+    bar = picture.get("bar")
+    return (_BAR + _NAME * (bool(bar["unit"]) + bool(bar["names"]))) if bar else 0
