@@ -36,8 +36,12 @@ def _stage(run: Run, measured: Mapping[str, Quantity]) -> list[Part]:
     for name, build in SCENES.items():
         saved = {word: measured[f"{name}_saved_{word}"] for word in ("blocked", "free")}
         panels.append(Panel(name, name, [maps_of_visits(run, run.scene(build), name, run.pick(SIZE), saved)]))
-    note = f"Means over {run.pick(TIMES)} random points of a light. Visits: of a counting traversal. Rates: of the renderer's own, all cores; medians of nine calls of each kind in turn, of their ratio with its range."
-    return [Tabs("scene", "Scene", panels), table_of_visits(measured, list(SCENES), note)]
+    times = (
+        "Rates are left out: those of a coarse run's few rays are noise." if run.quick
+        else "Rates: of the renderer's own, all cores; medians of nine calls of each kind in turn, of their ratio with its range."
+    )  # fmt: skip
+    note = f"Means over {run.pick(TIMES)} random points of a light. Visits: of a counting traversal. {times}"
+    return [Tabs("scene", "Scene", panels), table_of_visits(measured, list(SCENES), note, not run.quick)]
 
 
 FIGURE = Figure(

@@ -9,6 +9,7 @@ import numpy as np
 
 from antumbra.lecture.figure import Claim, Equation, Figure, Number, Pick, Question, Variant
 from antumbra.lecture.measures.penumbra import board_widths
+from antumbra.lecture.measures.ratio import times
 from antumbra.lecture.quantity import Quantity
 from antumbra.lecture.run import Run
 from antumbra.lecture.scenes.square_lights import DISTANCE_RATIOS, boards_under_square, irradiance_under
@@ -45,9 +46,12 @@ def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
         chosen=curves[-1].name, x_ticks=[0.2, 0.4, 0.6, 0.8, 1.0],
         label=f"Width of the penumbra against s under three boards: {found['share']} of s times d₂/d₁.",
     )  # fmt: skip
-    rows = {f"{s:g}": [found[f"w{s:g}-{n}"] for n in range(3)] for s in FITTED}
-    head, says = ("s [m]", *(f"{word}" for word in DISTANCE_RATIOS)), "Measured width of the penumbra [m]"
-    note = f"{says}, under boards with d₂/d₁ = 1/7, 1/3, 1."
+    rows = {
+        f"{s:g}": [*(times(found[f"w{s:g}-{n}"], Quantity(1000.0)) for n in range(3)), f"{100 * found[f'below-{s:g}'].value:.1f}"]
+        for s in FITTED
+    }  # fmt: skip
+    head, says = ("s [m]", *DISTANCE_RATIOS, "below [%]"), "Measured width of the penumbra [mm]"
+    note = f"{says}, under boards with d₂/d₁ = 1/7, 1/3, 1. Below: light of the free floor straight below, of that of the point light."
     table = table_of(head, rows, f"{says} by s and d₂/d₁.", bare=True, note=note)
     return [strip, Plot(drawing, "Marks: measured, 95 % of 16 replicates. Lines: similar triangles.", table)]
 
@@ -74,7 +78,7 @@ FIGURE = Figure(
         Claim("Twice the edge, twice as wide.", "doubled", near=2.0, within=0.02, measured="{doubled} times, three boards"),
         Claim("Seven times the d₂/d₁, seven times as wide.", "boards", near=7.0, within=0.05,
               measured="{boards} times, 1 against 1/7"),
-        Claim("The lit floor below keeps its light but for 7.7 %.", "below", near=irradiance_under(1.0, 2.0) * 4 - 1, within=0.003,
-              measured="{below:1}; closed form −7.67 %"),
+        Claim("Straight below, the largest light sends 92 % of what the point light does.", "below-1", near=irradiance_under(1.0, 2.0) * 4, within=0.003,
+              measured="{below-1:1}; closed form 92.33 %"),
     ],
 )  # fmt: skip

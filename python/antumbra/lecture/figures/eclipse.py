@@ -28,7 +28,8 @@ LOOK = {
 }  # fmt: skip
 ONE = {"viewing": "centre", "viewing_rays": 1, "shadow_rays": 1}
 VIEWS: dict[str, dict[str, Any]] = {
-    "space": {},
+    # Near the line to the sun: from farther aside the night side, black on black, takes a piece of the disk away.
+    "space": {"eye": (41_400.0, 3_600.0, 6_000.0), "look_at": (0.0, 0.0, 0.0), "fov": 0.34},
     "ground": ONE | {"aov": "regions", "region_points": 64, "eye": (EYE, 0.0, 0.0), "look_at": (0.0, 0.0, 0.0),
                      "fov": 2 * np.arctan(GROUND / (EYE - SKY.earth))},
     "sky": ONE | {"aov": "emission,albedo", "eye": (SKY.earth + 0.002, 0.0, 0.0), "look_at": (1e6, 0.0, 0.0), "fov": ACROSS},
@@ -73,9 +74,10 @@ FIGURE = Figure(
     answer=Number("turns", "There the tip of the umbra leaves the ground. Nearer, the eclipse is total on a path of some hundred "
         "kilometres; farther, it is annular."),
     equation=Equation(
-        [(r"\ell = \frac{\mark{D} \, r}{R - r}, \qquad d - R_\oplus = \ell", "ℓ = D r / (R − r), on the ground where d − R⊕ = ℓ")],
-        "Marked: D, from the sun to the moon. ℓ is the length of the umbra behind the moon, r and R the radii of moon and sun. Its tip is on the ground "
-        "where the moon's distance d less the earth's radius R⊕ = 6,371 km is ℓ.",
+        [(r"\mark{d} - R_\oplus < \ell \; \text{total}, \quad \mark{d} - R_\oplus > \ell \; \text{annular}, \quad \ell = \frac{D \, r}{R - r}",
+          "total where d − R⊕ < ℓ, annular where d − R⊕ > ℓ, with ℓ = D r / (R − r)")],
+        "Marked: d, the moon's distance; less the earth's radius R⊕ = 6,371 km it is the way to the ground. ℓ, the length of the umbra, hardly changes: "
+        "D, from the sun to the moon, does by 0.03 %. r and R are the radii of moon and sun.",
     ),
     claims=[
         Claim("The umbra is D·r/(R − r) long.", "length", near=SKY.length(TURNS), within=600.0, main=True,

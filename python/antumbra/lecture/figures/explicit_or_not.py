@@ -13,6 +13,7 @@ from antumbra.lecture.measures.slopes import Errors
 from antumbra.lecture.quantity import Quantity
 from antumbra.lecture.run import Run
 from antumbra.lecture.scenes import builtin
+from antumbra.lecture.sketches.samplers import reference
 from antumbra.lecture.stages import Part, Picture, Plot
 from antumbra.lecture.stages.quantities import table_of, tabs_of
 from antumbra.study.plot import error_curves
@@ -45,7 +46,7 @@ def _pictures(run: Run, way: str, white: float) -> list[Picture]:
         shown.append(
             run.picture(run.image(key).pixels, alt, caption, name=key, white=white, colour=True, noise=True)
         )
-    return shown
+    return [*shown, reference(run, "the box with all of its light", white, colour=True)]
 
 
 def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
@@ -76,7 +77,7 @@ FIGURE = Figure(
     ],
     measure=_measure, stage=_stage, exr=["truth", "chance-256", "asked-256"],
     answer=Number("paths", "So many paths by chance have the error of one that computes direct and indirect light apart. Both errors fall with "
-        "slopes of {chance:1} and {asked:1}: more paths help both alike.", before="× "),
+        "slopes of {chance} and {asked}: more paths help both alike.", before="× "),
     equation=Equation([BOUNCES], "Marked: the direct light. Asked for on purpose, it is not left to chance; where the next bounce meets "
         "the lamp, it must not count again."),
     claims=[

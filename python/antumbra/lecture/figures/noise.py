@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from antumbra.lecture.figure import Claim, Equation, Figure, Number, Pick, Question, Variant
-from antumbra.lecture.measures.causes import ESTIMATES, PAIRS, PLACES, SIZE, SQUARES, shares
+from antumbra.lecture.measures.causes import ESTIMATES, KNOWN, PAIRS, PLACES, SIZE, SQUARES, shares
 from antumbra.lecture.quantity import Quantity
 from antumbra.lecture.run import Run
 from antumbra.lecture.scenes import PILLARS_VIEW, two_windows
@@ -51,8 +51,8 @@ FIGURE = Figure(
               measured="rendered / sum of the parts: {adds}"),
         Claim("The choice of the window is more than half of it.", "light", above=0.5, measured="{light}"),
         Claim("Where the answer is known, under a disk light half hidden by a plate, one shadow ray has the variance 0.8225.",
-              "half", near=0.8224670334, within=0.02, measured="{half} W² m⁻⁴"),
-        Claim("There, seen or not seen (V) makes three quarters of it.", "seen", near=0.75 * 0.8224670334, within=0.02,
-              measured="{seen} of {half:v} W² m⁻⁴"),
+              "half-whole", near=KNOWN["whole"], within=0.02, measured="{half-whole} W² m⁻⁴"),
+        Claim("There, seen or not seen (V) makes three quarters of it.", "half-visibility", near=KNOWN["visibility"], within=0.02,
+              measured="{half-visibility} of {half-whole:v} W² m⁻⁴"),
     ],
 )  # fmt: skip

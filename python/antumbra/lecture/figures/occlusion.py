@@ -52,7 +52,7 @@ def _measure(run: Run) -> Mapping[str, Quantity]:
 
 # fmt: off
 def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
-    errors, reference = _errors(run), run.picture("truth", "Reference: smooth.", "reference", white=1.0)
+    errors, reference = _errors(run), run.picture("truth", "Reference: smooth.", "reference", white=1.0, noise=True)
     strip = Strip("radius", "How far the rays look", [at_radius(run, found, r) for r in RADII], 0, ("up to R", "fading, 1 − t/R"))
     rows_of = {s: [Row([*counts(run, errors, s, SHOWN, 1.0), reference])] for s in SAMPLERS}
     tabs = Tabs("directions", "Directions", [*(Panel(s, s, row) for s, row in rows_of.items()), Panel("short", "only so far", [strip])])
@@ -78,7 +78,7 @@ FIGURE = Figure(
           for k, how in (("radius", "none"), ("faded", "linear")) for r in RADII),
     ],
     measure=_measure, stage=_stage, exr=["truth", "owen-256"],
-    answer=Number("worth", "So many random directions are worth 64 well spread ones. The slope of random ones is {random:1}, of owen {owen:1}."),
+    answer=Number("worth", "So many random directions are worth 64 well spread ones. The slope of random ones is {random}, of owen {owen}."),
     equation=Equation([OCCLUSION], "Marked: V along a direction. With directions of density cos θ/π, AO is the share of rays that get away."),
     claims=[
         Claim("64 well spread directions are worth more than 256 random ones.", "worth", above=256, main=True, measured="{worth} are worth 64"),

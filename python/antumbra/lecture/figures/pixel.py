@@ -64,8 +64,8 @@ FIGURE = Figure(
         Variant("pixel", three_pillars, ONE | {"crop": (*PIXEL, 1, 1)}, replicates=TIMES),
     ],
     measure=_measure, stage=_stage, exr=["scene"],
-    answer=Number("value", "The integral is {integral:1}; nine rays miss it by {rule:v}, as a rule. "
-        "From ray to ray cos θ varies by {varies_cos}, r² by {varies_squared}, cos θ′ by {varies_cos_light}; V jumps.", digits=2),
+    answer=Number("rule", "of the integral is what nine rays miss it by, as a rule: these say {value}, it is {integral:1}. "
+        "From ray to ray cos θ varies by {varies_cos}, r² by {varies_squared}, cos θ′ by {varies_cos_light}; V jumps."),
     equation=Equation([SUM], "Marked: one row of the table. Everything outside the mark is the same for all nine rays."),
     claims=[
         Claim("The rows add up to the pixel.", "sum", near=0.0, within=1e-5, main=True, measured="{sum} off the same pixel of the picture"),

@@ -50,7 +50,7 @@ FIGURE = Figure(
         for start, option in STARTS.items() for file, scale in FILES.items() for view in ("all", "foot")
     ],
     measure=_measure, stage=_stage, exr=["none-metres-all"],
-    answer=Number("false_metres_none", "So many lit pixels are in false shadow without an offset; of the viewing rays {viewing} are wrong. "
+    answer=Number("false_metres_none", "So many lit pixels are in false shadow without an offset, in the file in metres; of the viewing rays {viewing} are wrong, in all three. "
         "A hit a rounding too early is the right surface still; to a shadow ray it is a wrong yes."),
     equation=Equation(
         [(r"V_{\varepsilon}(p, p') = V(\mark{p + \varepsilon \, n}, \; p')", "V_ε(p, p′) = V(p + ε n, p′)"),

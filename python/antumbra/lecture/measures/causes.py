@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from antumbra.lecture.measures import decompose
 from antumbra.lecture.measures.noise import luminances
 from antumbra.lecture.measures.replicates import mean_of, of_interval
@@ -24,6 +26,12 @@ PAIRS = {
     "visibility_interaction": "2 Cov(V, V with g)",
     "geometry_interaction": "2 Cov(g, V with g)",
 }
+# Under a disk of radius 1 and radiance 1 at height 1, half hidden (CF35e): g = π/(1 + ρ²)², ρ² even in (0, 1), and V
+# apart from it 1 or 0 with ½ each. ḡ = π/2, Var g = π²/24, Var V = ¼; covariances are 0.
+KNOWN = {
+    "visibility": math.pi**2 / 16, "geometry": math.pi**2 / 96, "interaction": math.pi**2 / 96,
+    "whole": math.pi**2 / 12,
+}  # fmt: skip
 SIZE, ESTIMATES, PLACES = Pick((60, 42), (240, 168)), 4, 4
 
 
@@ -41,7 +49,7 @@ def parts(run: Run) -> list[decompose.Parts]:
 def shares(run: Run) -> dict[str, Quantity]:
     """The share of each part in the variance; adds: variance of the rendered pictures "one" over the sum of the parts.
 
-    half, seen: variance under a half-hidden disk (CF35e), and the part of it that is visibility.
+    half-…: the parts of `KNOWN` under a half-hidden disk.
     """
     names = [*SQUARES, *PAIRS, "covariances"]
     whole = statistics.mean([each.whole.mean() for each in parts(run)])
@@ -51,6 +59,5 @@ def shares(run: Run) -> dict[str, Quantity]:
     return {
         **{n: mean_of([getattr(p, n).mean() / p.whole.mean() for p in parts(run)], "%") for n in names},
         "adds": of_interval(statistics.ratio(rendered, whole)),
-        "half": mean_of(half.whole),
-        "seen": mean_of(half.visibility),
+        **{f"half-{name}": mean_of(getattr(half, name)) for name in KNOWN},
     }

@@ -5,7 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from antumbra.lecture.measures.replicates import of_interval
 from antumbra.lecture.pictures import luminance
+from antumbra.lecture.quantity import Quantity
 from antumbra.lecture.run import Run
 from antumbra.study import statistics
 
@@ -13,6 +15,13 @@ from antumbra.study import statistics
 def luminances(run: Run, key: str) -> NDArray[np.float64]:
     """Luminance [W·m⁻²·sr⁻¹] of each replicate of a variant, (K, H, W)."""
     return np.array([luminance(image.pixels) for image in run.images(key)])
+
+
+def noise_over(run: Run, key: str, other: str) -> Quantity:
+    """Standard deviation of one variant over that of another, from the scatter of replicates: it needs no truth."""
+    return of_interval(
+        statistics.ratio(*(statistics.root(statistics.variance(luminances(run, k))) for k in (key, other)))
+    )
 
 
 def of_lit_pixels(run: Run, key: str, reference: str) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

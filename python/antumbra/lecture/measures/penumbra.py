@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from antumbra.lecture.measures.points import irradiance_at
-from antumbra.lecture.measures.ratio import excess, ratio
+from antumbra.lecture.measures.ratio import ratio
 from antumbra.lecture.measures.replicates import mean_of
 from antumbra.lecture.quantity import Quantity
 from antumbra.lecture.run import Run
@@ -45,20 +45,20 @@ def board_widths(
     """Widths of the penumbra of each of the three boards, w`size`-`board` [m], for edges `sizes` of the light.
 
     share: over the prediction s d₂/d₁, of all of them; doubled: over the width at half the edge; boards: the last
-    board over the first, at the largest; below: how the floor's light changes from a point light to that.
+    board over the first, at the largest; below-`size`: the light straight below, over that of a point light.
     """
     ratios = list(DISTANCE_RATIOS.values())
     width = {(s, b): _board_widths(run, s, b, ratios[b]) for s in sizes for b in range(len(BOARDS))}
     twice = [width[b, n] / width[a, n] for a, b in doubled for n in range(len(BOARDS))]
-    most = sizes[-1]
-    point, square = (_unshadowed(run, s) for s in (0.0, most))
+    most, point = sizes[-1], _unshadowed(run, 0.0)
+    below = {s: ratio(_unshadowed(run, s), point, "%") for s in sizes}
     return {
         **{f"w{s:g}-{b}": _width(w, 2 * _half(ratios[b]) / run.pick(_COUNT)) for (s, b), w in width.items()},
         "doubled": mean_of(np.mean(twice, axis=0)),
         "widths": Quantity(len(width)),
         "share": mean_of(np.mean([w / (s * ratios[b]) for (s, b), w in width.items()], axis=0)),
         "boards": mean_of(width[most, len(BOARDS) - 1] / width[most, 0]),
-        "below": excess(ratio(square, point)),
+        **{f"below-{s:g}": share for s, share in below.items()},
     }
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -67,6 +68,10 @@ class Errors:
         """RMSE with `n` rays of one sampler over that with `m` of another."""
         return of_interval(statistics.ratio(*(self.rmse(*a) for a in ((sampler, n), (other, m)))))
 
+    def cell(self, sampler: str, n: int) -> Quantity | str:
+        """`relative` for a table; a dash where nothing was measured."""
+        return self.relative(sampler, n) if n in self.counts[sampler] else "–"
+
     def slopes(self, fitted: Counts) -> dict[str, Quantity]:
         """Slope of the RMSE over the counts that are `fitted`, for each sampler."""
         return {sampler: self._slope(sampler, every) for sampler, every in fitted.items()}
@@ -93,11 +98,17 @@ class Errors:
             abs(w) * self._own[sampler, n] / (2 * m)
             for w, n, m in zip(u / (u @ u), every, means, strict=True)
         )
-        return Quantity(found.value, math.hypot(found.half, own), note="slope of the RMSE")
+        # A sampler without noise has the noise of the truth only.
+        half = found.half if len(squares) > 1 else 0.0
+        return Quantity(found.value, math.hypot(half, own), note="slope of the RMSE")
 
     def curve(self, sampler: str, fitted: Counts) -> Curve:
-        """For `error_curves`, in units of one random ray."""
+        """For `error_curves`, in units of one random ray: marks and bars of `relative`, the slope of `slopes`."""
         counts, unit = self.counts[sampler], float(self._first.mean())
-        return measured(
+        drawn = measured(
             sampler, counts, self.squares[sampler] / unit, fit=[n in fitted[sampler] for n in counts]
         )
+        marks = [self.relative(sampler, n) for n in counts]
+        low, high = zip(*(mark.interval for mark in marks), strict=True)
+        slope = self._slope(sampler, fitted[sampler])
+        return replace(drawn, y=[m.value for m in marks], low=low, high=high, note=f"slope {slope}")

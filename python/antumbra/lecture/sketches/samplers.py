@@ -20,6 +20,12 @@ def counts(run: Run, errors: Errors, sampler: str, shown: Sequence[int], white: 
     return pictures
 
 
+def reference(run: Run, shows: str, white: float, colour: bool = False) -> Picture:
+    """The variant "truth", its pixels squares as those of the pictures that it is compared with."""
+    alt = f"Reference: {shows}."
+    return run.picture("truth", alt, "reference", white=white, colour=colour, noise=True)
+
+
 def at_radius(run: Run, found: Mapping[str, Quantity], r: int) -> Frame:
     """The openness that the variants "radius-r" and "faded-r" show, and the mean `open-r`, as a frame of a slider."""
     says = f"{r} of 555: {found[f'open-{r}']:1} open on average"

@@ -45,8 +45,13 @@ def maps_of_visits(
     return Row([heat("any", "any hit"), heat("closest", "closest hit"), less], note)
 
 
-def table_of_visits(measured: Mapping[str, Quantity], scenes: Sequence[str], note: str) -> Table:
-    """A line for the blocked and the free rays of each scene, its quantities named `scene_count_rays`."""
+def table_of_visits(
+    measured: Mapping[str, Quantity], scenes: Sequence[str], note: str, clock: bool = True
+) -> Table:
+    """A line for the blocked and the free rays of each scene, its quantities named `scene_count_rays`.
+
+    Without the `clock` no rates: those of few rays are noise.
+    """
     rows = []
     for name in scenes:
         for word in RAYS.values():
@@ -55,9 +60,16 @@ def table_of_visits(measured: Mapping[str, Quantity], scenes: Sequence[str], not
                 f"{100 * measured[f'{name}_{what}_{word}'].value:.1f} %" for what in ("share", "saved")
             )
             rate, faster = (measured[f"{name}_{what}_{word}"] for what in ("any_rate", "faster"))
-            rows.append([f"{name}, {word}", share, *counts, saved, written(rate.value, 2), f"{faster:r}"])
+            timed = [written(rate.value, 2), f"{faster:r}"] if clock else []
+            rows.append([f"{name}, {word}", share, *counts, saved, *timed])
     head = (
         "rays", "share", "boxes, any hit", "closest hit", "triangles, any hit", "closest hit", "saved",
-        "M rays/s, any hit", "rays/s over closest hit",
+        *(("M rays/s, any hit", "rays/s over closest hit") if clock else ()),
     )  # fmt: skip
-    return Table(head, rows, "Boxes and triangles visited by a shadow ray", fine=(1, 4, 5, 7), note=note)
+    return Table(
+        head,
+        rows,
+        "Boxes and triangles visited by a shadow ray",
+        fine=(1, 4, 5, 7)[: 4 if clock else 3],
+        note=note,
+    )
