@@ -45,14 +45,7 @@ def _measure(run: Run) -> Mapping[str, Quantity]:
     hidden, beside = (hidden_share(run, far, SKY, km, run.pick(Pick(2**18, 2**22))) for km in (0.0, 1500.0))
     touches, pixel = tip_in_map(run, f"ground-{TURNS}", 2 * GROUND)
     length = Quantity(turns.value - SKY.earth, turns.error, "km", "from the moon's centre")
-    return {
-        "turns": turns,
-        "length": length,
-        "touches": touches,
-        "pixel": pixel,
-        "hidden": hidden,
-        "beside": beside,
-    }
+    return {"turns": turns, "length": length, "touches": touches, "pixel": pixel, "hidden": hidden, "beside": beside}  # fmt: skip
 
 
 def _stage(run: Run, measured: Mapping[str, Quantity]) -> list[Part]:

@@ -1,0 +1,79 @@
+"""Where a path ends: error against work for a fixed number of reflections and for Russian roulette.
+
+Of the variants "end-WAY" (random numbers, replicates): variance of one path and rays of one path; the bias of few
+reflections is the light of more, from the variants "depth-k" that share their random numbers.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from antumbra.lecture.measures.maps import box_mean
+from antumbra.lecture.measures.noise import luminances
+from antumbra.lecture.measures.ratio import ratio, times
+from antumbra.lecture.measures.replicates import median_of, of_interval
+from antumbra.lecture.quantity import Quantity
+from antumbra.lecture.run import Run
+from antumbra.study import statistics
+
+
+class End(NamedTuple):
+    """A way to end paths: by pixel, (H, W), and over all pixels."""
+
+    bias: NDArray[np.float64]
+    """Light that is left out [W·m⁻²·sr⁻¹], a mean over 5 × 5 pixels."""
+    square: float
+    """Mean of its square over the picture."""
+    work: NDArray[np.float64]
+    """Variance of one path times its rays, a mean over 5 × 5 pixels."""
+    rays: float
+    """Of one path."""
+    product: Quantity
+    """Variance of one path times its rays, mean over the picture."""
+
+    def error(self, rays: float) -> NDArray[np.float64]:
+        """RMSE with so many rays a pixel, (H, W)."""
+        found: NDArray[np.float64] = np.sqrt(self.bias**2 + self.work / rays)
+        return found
+
+
+def end(run: Run, way: str, paths: int, depth: int, last: int) -> End:
+    """The variant end-`way` of `paths` paths a pixel; paths of `depth` reflections lose what those of `last` have."""
+    key, of = f"end-{way}", luminances(run, f"end-{way}")
+    images = run.images(key)
+    rays = float(np.mean([i.rays + i.shadow_rays for i in images])) / of[0].size / paths
+    lost = luminances(run, f"depth-{last}") - luminances(run, f"depth-{depth}")
+    # The noise of what is lost comes off its square.
+    square = float((lost.mean(0) ** 2 - lost.var(0, ddof=1) / len(lost)).mean())
+    bias, work = box_mean(lost.mean(0), 2), box_mean(of.var(0, ddof=1) * paths * rays, 2)
+    found = of_interval(statistics.variance(of))
+    return End(bias, square, work, rays, times(found, Quantity(paths * rays)))
+
+
+def compared(run: Run, ends: dict[str, End]) -> dict[str, Quantity]:
+    """`worth`: variance × rays of the way "long" over that of "roulette", `clock`: the same by the clock; `level`: rays
+    a pixel at which "short" and "roulette" have the same mean squared error; `rays-WAY`: of one path.
+    """
+    short, roulette, long = ends["short"], ends["roulette"], ends["long"]
+    seconds = [[i.seconds for i in run.images(f"end-{way}")] for way in ("long", "roulette")]
+    variances = (long.product.value / long.rays) / (roulette.product.value / roulette.rays)
+    return {
+        "worth": ratio(long.product, roulette.product),
+        "clock": median_of(np.divide(*seconds) * variances),
+        "level": _level(roulette.product, short.product, short.square),
+        **{f"rays-{way}": Quantity(each.rays) for way, each in ends.items()},
+    }
+
+
+def _level(more: Quantity, less: Quantity, square: float) -> Quantity:
+    error = float(np.hypot(more.error, less.error))
+    return Quantity((more.value - less.value) / square, error / square)
+
+
+def rmse(ends: Sequence[End], rays: float, light: float) -> list[float]:
+    """RMSE of each over the picture with so many rays a pixel, over the mean light."""
+    return [float(np.sqrt(e.square + e.product.value / rays)) / light for e in ends]
