@@ -1,9 +1,9 @@
-"""The hemisphere over a receiver as a disk in which equal areas are equal solid angles."""
+"""The hemisphere over a receiver as a disk: equal areas are equal solid angles, or equal parts of ∫ cos θ dω."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from typing import Any
 
 import numpy as np
@@ -17,15 +17,32 @@ _FINER = 3
 class Fisheye:
     """A picture of `side` pixels: straight up in the middle, the horizon as the rim, +x at the right, +z up."""
 
-    def __init__(self, side: int) -> None:
-        """An empty sky."""
+    def __init__(self, side: int, cosine: bool = False) -> None:
+        """An empty sky; `cosine`: the hemisphere from straight above, equal areas are equal parts of ∫ cos θ dω."""
         from PIL import Image, ImageDraw
 
-        self.side, wide = side, side * _FINER
+        self.side, self._cosine, wide = side, cosine, side * _FINER
         self._image = Image.new("RGB", (wide, wide), GROUND)
         self._draw = ImageDraw.Draw(self._image)
         self._radius = 0.49 * wide
         self._disk((0.0, 0.0), self._radius, SKY)
+
+    def fill(self, lit: Callable[[NDArray[np.float64]], NDArray[np.bool_]], colour: str) -> float:
+        """Colours the directions for which `lit` (N, 3) → (N,) is true; returns their part of ∫ cos θ dω / π.
+
+        Only where equal areas are equal parts of it.
+        """
+        from PIL import Image
+
+        x = (np.arange(self.side * _FINER) + 0.5 - self._middle) / self._radius
+        right, up = np.meshgrid(x, -x)
+        square = right**2 + up**2
+        inside = square < 1.0
+        along = np.stack([right, np.sqrt(np.maximum(1.0 - square, 0.0)), up], -1)[inside]
+        shown = np.zeros(square.shape, bool)
+        shown[inside] = lit(along)
+        self._image.paste(colour, mask=Image.fromarray(shown))
+        return float(shown.sum() / inside.sum())
 
     def outline(self, along: ArrayLike, colour: str = LIGHT) -> None:
         """Fills the outline through directions (N, 3)."""
@@ -64,9 +81,12 @@ class Fisheye:
         return self.side * _FINER / 2
 
     def _places(self, along: ArrayLike) -> NDArray[np.float64]:
-        """Lambert's equal-area projection: distance √(1 − cos θ) from the middle."""
+        """Lambert's equal-area projection: distance √(1 − cos θ) from the middle; from above: distance sin θ."""
         d = np.asarray(along, np.float64)
         d = d / np.linalg.norm(d, axis=1, keepdims=True)
+        if self._cosine:
+            seen: NDArray[np.float64] = self._middle + self._radius * d[:, [0, 2]] * [1.0, -1.0]
+            return seen
         # √(1 − cos θ) / sin θ = 1 / √(1 + cos θ).
         flat = d[:, [0, 2]] / np.sqrt(1 + d[:, 1:2]) * [1.0, -1.0]
         places: NDArray[np.float64] = self._middle + self._radius * flat

@@ -75,14 +75,17 @@ class Job:
                 return
             if by in renders.estimators(self.plan):
                 self._warn(
-                    f"the reference is of the same kind as a variant ({by}): an error of both does not show"
+                    f"the reference is {by}, and so is a variant: a mistake that {by} makes would not show;"
+                    " name another kind with --reference, or a file"
                 )
             else:
                 self._warn_of_parts({})
         elif given is not None:
             self.given = self._picture(given, error)
         else:
-            self._warn("there is no estimator of another kind: no reference, only the variance is measured")
+            self._warn(
+                "no reference: there is no other kind of estimator to compare with, so noise is measured, and no bias"
+            )
 
     def _choose_reference(self) -> None:
         """Of the estimators that share no part with the variants, if pilots find none wrong with one."""
@@ -104,13 +107,13 @@ class Job:
         why = "; ".join(f"{kind} {reason}" for kind, reason in refused.items())
         if self.by in common:
             self._warn(
-                f"the reference is of the same kind as a variant ({self.by}): an error of both does not show;"
-                f" {why}"
+                f"the reference is {self.by}, and so is a variant: a mistake that {self.by} makes would not show."
+                f" No other kind could be used: {why}"
             )
             return
         what = (
-            f"the reference, {self.by}, has parts in common with {' and '.join(common)}:"
-            f" an error in those does not show{f'; of those without, {why}' if why else ''}"
+            f"the reference, {self.by}, finds light partly in the way of {' and '.join(common)}: a mistake in"
+            f" that part would not show{f'. Others could not be used: {why}' if why else ''}"
         )
         # Of all light there is no estimator that shares nothing.
         self.warnings.append(("warning" if kinds.apart(self.plan) else "note", "", what))

@@ -66,3 +66,11 @@ def test_a_box_mean_keeps_even_maps_and_sums():
     dot = np.zeros((9, 9))
     dot[4, 4] = 25.0
     assert box_mean(dot, 2).sum() == pytest.approx(25.0)
+
+
+def test_parts_of_a_disk_seen_from_above_count_with_the_cosine():
+    # Below cos θ = ½ lies the rim sin² θ > ¾, a quarter of the disk; on one side of a plane a half.
+    fisheye = Fisheye(300, cosine=True)
+    assert fisheye.fill(lambda along: along[:, 1] < 0.5, LIGHT) == pytest.approx(0.25, abs=0.001)
+    assert fisheye.fill(lambda along: along[:, 0] > 0, LIGHT) == pytest.approx(0.5, abs=0.001)
+    assert np.count_nonzero(fisheye.radiance()[..., 0] > 0.5) > 0.5 * 0.49**2 * math.pi * 300**2

@@ -43,7 +43,7 @@ def test_what_shares_no_part_comes_first(varied, apart, else_):
 
 
 def warned(found):
-    return [text for level, _, text in found.messages if level == "warning" and "in common" in text]
+    return [text for level, _, text in found.messages if level == "warning" and "would not show" in text]
 
 
 def test_directions_judge_light_points_where_they_find_the_light_well(floor_under_sky):
@@ -64,7 +64,7 @@ def test_mis_judges_its_own_parts_only_with_a_warning():
     found = am.study.run("pillars", vary={"shadow_rays": [1]}, estimator="area", reference_rays=64, **SMALL)
     assert found.reference.startswith("mis")
     (text,) = warned(found)
-    assert text.startswith("the reference, mis, has parts in common with area") and "hemisphere" in text
+    assert text.startswith("the reference, mis, finds light partly in the way of area") and "hemisphere" in text
     assert text.count("is too noisy here") == 2
     named = am.study.run("pillars", vary={"shadow_rays": [1]}, estimator="area", reference="mis", **SMALL)
     assert len(warned(named)) == 1
@@ -97,7 +97,7 @@ SUNNY = {"environment": "sky:elevation=40:azimuth=120", "reference_rays": 2048}
 def test_under_a_small_sun_paths_of_directions_judge_nobody():
     found = am.study.run("pillars", vary={"sampler": ["random", "owen"]}, **SUNNY, **SMALL)
     assert found.reference.startswith("path,") and not found.flagged() and found.tested()
-    (text,) = [text for level, _, text in found.messages if level == "warning" and "same kind" in text]
+    (text,) = [text for level, _, text in found.messages if level == "warning" and "so is a variant" in text]
     assert "path-hemisphere" in text and ("of the light of path" in text or "too noisy" in text)
 
 

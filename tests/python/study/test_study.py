@@ -315,7 +315,7 @@ def test_a_budget_that_is_too_small_is_told():
 
 
 def test_a_reference_of_the_same_kind_is_warned_of_and_one_is_chosen_of_another():
-    assert any("same kind" in m[2] for m in am.study.run("pillars", reference="area", **SMALL).messages)
+    assert any("so is a variant" in m[2] for m in am.study.run("pillars", reference="area", **SMALL).messages)
     made = plan.plan({"estimator": ["area", "mis"]}, {}, parameters={}, budget={}, seeds=3)
     assert kinds.any_other(made) == "hemisphere"
 
@@ -324,7 +324,7 @@ def test_occlusion_has_no_second_kind():
     found = study("corner", vary={"shadow_rays": [4, 16]}, estimator="ambient-occlusion", viewing_rays=1)
     assert found.reference == "" and all(row.mse is None for row in found.rows)
     assert found.slope("ambient-occlusion").value < -0.5
-    assert "only the variance is measured" in found.html()
+    assert "noise is measured, and no bias" in found.html()
 
 
 def test_a_reference_that_finds_no_light_tests_nothing():

@@ -46,7 +46,7 @@ def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
         chosen=curves[-1].name, x_ticks=[0.2, 0.4, 0.6, 0.8, 1.0],
         label=f"Width of the penumbra against s under three boards: {found['share']} of s times d₂/d₁.",
     )  # fmt: skip
-    rows = {
+    rows: dict[str, list[Quantity | str]] = {
         f"{s:g}": [*(times(found[f"w{s:g}-{n}"], Quantity(1000.0)) for n in range(3)), f"{100 * found[f'below-{s:g}'].value:.1f}"]
         for s in FITTED
     }  # fmt: skip

@@ -19,11 +19,11 @@ DEPTHS = range(13)
 LAST = DEPTHS[-1]
 # The same random numbers for every depth: what a bounce more adds is its light alone.
 ONE = {"estimator": "path", "viewing": "centre", "size": Pick((44, 44), (200, 200))}
-LOOK = ONE | {"roulette": "off", "viewing_rays": Pick(16, 64)}
+LOOK = ONE | {"roulette": "off", "viewing_rays": Pick(16, 32)}
 # Where a path may end, and the reflections after which light is lost; the work at which errors are compared [rays a pixel].
 ENDS = {"short": "4 reflections", "roulette": "roulette", "long": "12 reflections"}
 DEPTH = {"short": 4, "roulette": LAST, "long": LAST}
-HOW = {"short": {"bounces": 4, "roulette": "off"}, "roulette": {"bounces": 64}, "long": {"bounces": LAST, "roulette": "off"}}  # fmt: skip
+HOW: dict[str, dict[str, object]] = {"short": {"bounces": 4, "roulette": "off"}, "roulette": {"bounces": 64}, "long": {"bounces": LAST, "roulette": "off"}}  # fmt: skip
 PATHS, WORK = 8, [10 * 2**n for n in range(12)]
 
 

@@ -59,11 +59,11 @@ def compared(run: Run, ends: dict[str, End]) -> dict[str, Quantity]:
     a pixel at which "short" and "roulette" have the same mean squared error; `rays-WAY`: of one path.
     """
     short, roulette, long = ends["short"], ends["roulette"], ends["long"]
-    seconds = [[i.seconds for i in run.images(f"end-{way}")] for way in ("long", "roulette")]
+    taken, least = (np.array([i.seconds for i in run.images(f"end-{way}")]) for way in ("long", "roulette"))
     variances = (long.product.value / long.rays) / (roulette.product.value / roulette.rays)
     return {
         "worth": ratio(long.product, roulette.product),
-        "clock": median_of(np.divide(*seconds) * variances),
+        "clock": median_of(taken / least * variances),
         "level": _level(roulette.product, short.product, short.square),
         **{f"rays-{way}": Quantity(each.rays) for way, each in ends.items()},
     }

@@ -1,0 +1,113 @@
+"""What a point of the floor of the white box sees of the sky; albedo × L × AO against the picture under that sky."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from antumbra.lecture.fisheye import MISSED, Fisheye
+from antumbra.lecture.measures.noise import luminances
+from antumbra.lecture.measures.ratio import excess, ratio
+from antumbra.lecture.measures.replicates import mean_of
+from antumbra.lecture.pictures import luminance
+from antumbra.lecture.quantity import Quantity
+from antumbra.lecture.run import Run
+from antumbra.lecture.scenes import white_box
+from antumbra.lecture.variant import Pick
+
+# The receivers, on a line to the back of the box between the tall block and the wall.
+DEPTHS = [20 + 40 * n for n in range(14)]
+SIDE, CELLS = Pick(160, 320), 8
+_BESIDE = 480.0
+_SKY, _DOT = "#ccd9ec", "#bf3a12"
+
+
+class Seen(NamedTuple):
+    """The hemisphere over a receiver: with `CELLS`² random directions, and with one in each of as many cells."""
+
+    random: NDArray[np.float64]
+    cells: NDArray[np.float64]
+    shares: tuple[float, float]
+    """Which part of the directions finds the sky."""
+    open: float
+    """The bright part of the disk."""
+
+
+def seen_from(run: Run, z: int) -> Seen:
+    """What the receiver at depth z sees; dots: directions to the sky, crosses: directions that something blocks."""
+
+    def free(along: NDArray[np.float64]) -> NDArray[np.bool_]:
+        at = np.tile([_BESIDE, 0.0, float(z)], (len(along), 1))
+        return ~run.scene(white_box).occluded(at, directions=along)
+
+    random = np.random.default_rng((run.seeded(0), z))
+    cells = (
+        np.moveaxis(np.indices((CELLS, CELLS)), 0, -1).reshape(-1, 2) + random.random((CELLS**2, 2))
+    ) / CELLS
+    pictures, shares, bright = [], [], 0.0
+    for places in (random.random((CELLS**2, 2)), cells):
+        fisheye = Fisheye(run.pick(SIDE), cosine=True)
+        bright = fisheye.fill(free, _SKY)
+        along = _on_the_disk(places)
+        reached = free(along)
+        fisheye.dots(along[reached], [0.012] * int(reached.sum()), _DOT)
+        fisheye.crosses(along[~reached], MISSED)
+        pictures.append(fisheye.radiance())
+        shares.append(float(reached.mean()))
+    return Seen(pictures[0], pictures[1], (shares[0], shares[1]), bright)
+
+
+def _on_the_disk(places: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Directions of density cos θ / π for points (N, 2) of the unit square: r = √u, φ = 2π v of the disk."""
+    r, angle = np.sqrt(places[:, 0]), 2 * np.pi * places[:, 1]
+    found: NDArray[np.float64] = np.stack([r * np.cos(angle), np.sqrt(1 - r**2), r * np.sin(angle)], 1)
+    return found
+
+
+def all_seen(run: Run) -> dict[int, Seen]:
+    """`seen_from` for all `DEPTHS`."""
+    found: dict[int, Seen] = run.once("open sky", lambda: {z: seen_from(run, z) for z in DEPTHS})
+    return found
+
+
+def product(run: Run, some: slice = slice(None)) -> NDArray[np.float64]:
+    """Albedo × L × AO, L = 1, (H, W, 3), of replicates of "identity-ao"; its pixels without a surface are 0."""
+    albedo: NDArray[np.float64] = np.asarray(run.aov("identity-ao", "albedo"), np.float64)
+    return albedo * np.mean([image.pixels for image in run.images("identity-ao")[some]], 0, dtype=np.float64)
+
+
+def reflected(run: Run, key: str, replicate: int = 0) -> NDArray[np.float64]:
+    """The picture of a variant less the sky that it shows itself, (H, W, 3)."""
+    image = run.images(key)[replicate]
+    return np.asarray(image.pixels - image.aov["emission"], np.float64)
+
+
+def compared(run: Run) -> dict[str, Quantity]:
+    """`identical`: largest difference of product and picture of the same rays; `off`: that of their means, where random
+    numbers and density of the directions are others; `disk`: largest of a disk's bright part from the renderer's AO.
+    """
+    same = float(np.abs(reflected(run, "identity-same") - product(run, slice(1))).max())
+    apart = luminance(
+        np.array([reflected(run, "identity-other", n) for n in range(len(run.images("identity-other")))])
+    )
+    albedo = luminance(np.asarray(run.aov("identity-ao", "albedo"), np.float64))
+    mine = albedo * luminances(run, "identity-ao")
+    scene, rays = run.scene(white_box), 2**14
+    disk = [
+        each.open
+        - float(
+            np.asarray(
+                scene.ambient_occlusion(
+                    [[_BESIDE, 0.0, float(z)]], [[0.0, 1.0, 0.0]], rays=rays, seed=run.seeded(3)
+                )
+            )[0]
+        )
+        for z, each in all_seen(run).items()
+    ]
+    return {
+        "identical": Quantity(same),
+        "off": excess(ratio(mean_of(apart.mean((1, 2))), mean_of(mine.mean((1, 2))))),
+        "disk": Quantity(float(np.abs(disk).max())),
+    }
