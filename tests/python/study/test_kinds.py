@@ -64,7 +64,9 @@ def test_mis_judges_its_own_parts_only_with_a_warning():
     found = am.study.run("pillars", vary={"shadow_rays": [1]}, estimator="area", reference_rays=64, **SMALL)
     assert found.reference.startswith("mis")
     (text,) = warned(found)
-    assert text.startswith("the reference, mis, finds light partly in the way of area") and "hemisphere" in text
+    assert (
+        text.startswith("the reference, mis, finds light partly in the way of area") and "hemisphere" in text
+    )
     assert text.count("is too noisy here") == 2
     named = am.study.run("pillars", vary={"shadow_rays": [1]}, estimator="area", reference="mis", **SMALL)
     assert len(warned(named)) == 1

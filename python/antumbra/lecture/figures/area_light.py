@@ -51,7 +51,7 @@ def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
         for s in FITTED
     }  # fmt: skip
     head, says = ("s [m]", *DISTANCE_RATIOS, "below [%]"), "Measured width of the penumbra [mm]"
-    note = f"{says}, under boards with d₂/d₁ = 1/7, 1/3, 1. Below: light of the free floor straight below, of that of the point light."
+    note = f"{says} by s and d₂/d₁. Below: the light straight below, of that of the point light."
     table = table_of(head, rows, f"{says} by s and d₂/d₁.", bare=True, note=note)
     return [strip, Plot(drawing, "Marks: measured, 95 % of 16 replicates. Lines: similar triangles.", table)]
 
@@ -78,7 +78,7 @@ FIGURE = Figure(
         Claim("Twice the edge, twice as wide.", "doubled", near=2.0, within=0.02, measured="{doubled} times, three boards"),
         Claim("Seven times the d₂/d₁, seven times as wide.", "boards", near=7.0, within=0.05,
               measured="{boards} times, 1 against 1/7"),
-        Claim("Straight below, the largest light sends 92 % of what the point light does.", "below-1", near=irradiance_under(1.0, 2.0) * 4, within=0.003,
+        Claim("Straight below, 1 m sends 92 % of the point light.", "below-1", near=irradiance_under(1.0, 2.0) * 4, within=0.003,
               measured="{below-1:1}; closed form 92.33 %"),
     ],
 )  # fmt: skip
