@@ -1,0 +1,108 @@
+"""Noise and time of one shadow ray for all lamps, and of one for each."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from antumbra.lecture.measures.ratio import ratio, squared, times
+from antumbra.lecture.measures.replicates import mean_of, median_of, of_interval
+from antumbra.lecture.pictures import luminance
+from antumbra.lecture.quantity import Quantity
+from antumbra.lecture.run import Run
+from antumbra.lecture.scenes import builtin
+from antumbra.lecture.scenes.point_lights import VARIANCES, point_lights
+from antumbra.lecture.variant import Pick
+from antumbra.study import statistics
+
+# How a lamp is drawn: all alike, in proportion to its power, to what it would give the receiver; or a ray to each.
+WAYS = ("uniform", "power", "contribution", "all")
+# Ways whose time does not grow with the lamps.
+ANY_NUMBER = ("uniform", "power")
+LAMPS = Pick([10, 100, 1000, 10_000], [10, 100, 1000, 10_000, 100_000])
+# More lamps are not weighed one by one for each receiver, nor asked one by one here.
+MOST = 1000
+# Rays of a pixel where a lamp is drawn for each.
+RAYS = 16
+# A noise at which times are compared.
+NOISE = 0.1
+
+
+def measured(run: Run, way: str) -> list[int]:
+    """The numbers of lamps for which a way is measured."""
+    return [k for k in run.pick(LAMPS) if k <= MOST or way in ANY_NUMBER]
+
+
+def reflected(run: Run, key: str) -> NDArray[np.float64]:
+    """Luminance of each replicate of a variant without the lamps that are seen themselves, (K, H, W)."""
+    return np.array([luminance(image.pixels - image.aov["emission"]) for image in run.images(key)])
+
+
+def _noise(run: Run, way: str, lamps: int) -> Quantity:
+    """Standard deviation of a pixel over the mean light: of one ray, or of one to each lamp."""
+    each = reflected(run, f"{way}-{lamps}")
+    found = statistics.root(statistics.variance(each))
+    scale = (1 if way == "all" else RAYS**0.5) / each.mean()
+    return of_interval(statistics.Interval(*(scale * end for end in found)), "%")
+
+
+def _time(run: Run, way: str, lamps: int) -> Quantity:
+    """Time of a pixel [µs] for one ray, or one to each lamp: the median of the pictures.
+
+    Less what a picture of one pixel takes, which makes the lamps ready as all do.
+    """
+    images, scene = run.images(f"{way}-{lamps}"), run.scene(builtin("many-lights", lights=lamps))
+    ready = [
+        scene.render(size=(1, 1), viewing_rays=1, estimator="area", lights=way).seconds for _ in range(3)
+    ]
+    rays = images[0].width * images[0].height * (1 if way == "all" else RAYS)
+    return median_of([1e6 * max(image.seconds - min(ready), 0.0) / rays for image in images], "µs")
+
+
+def forecast(found: Mapping[str, Quantity], way: str, lamps: int) -> float:
+    """`cost-…` beyond what is measured: time in proportion to the lamps, noise as with the most that are measured."""
+    return found[f"cost-{way}-{MOST}"].value * lamps / MOST
+
+
+def _points(run: Run, how: str) -> Quantity:
+    """Variance of one ray under 1000 points over its closed form."""
+    scene, estimates, rays = run.scene(point_lights(1000)), run.pick(Pick(1 << 14, 1 << 17)), 16
+    found = scene.irradiance(
+        np.zeros((estimates, 3)), (0.0, 1.0, 0.0), shadow_rays=rays, lights=how, sampler="random",
+        seed=run.seeded(0),
+    )  # fmt: skip
+    groups = np.asarray(found, np.float64)[:, 1].reshape(32, -1)
+    return ratio(mean_of(rays * groups.var(1, ddof=1)), Quantity(VARIANCES[how]))
+
+
+def of_lamps(run: Run) -> dict[str, Quantity]:
+    """What a ray to one of many lamps, or to each, is worth.
+
+    `noise-way-k` of one ray (or one to each of k lamps), `time-way-k` of it [µs a pixel], `cost-way-k`: time for a
+    noise of 10 %; `alike` and `chosen`: rays to lamps drawn alike, and by contribution, with the noise of one to each
+    of 1000, the first in thousands; `grows`: noise by contribution, 1000 lamps over 10; `same`: mean by contribution
+    over that by all; `closed-way`: variance under 1000 points over its closed form.
+    """
+    found: dict[str, Quantity] = {}
+    for way in WAYS:
+        for k in measured(run, way):
+            noise, time = _noise(run, way, k), _time(run, way, k)
+            found |= {f"noise-{way}-{k}": noise, f"time-{way}-{k}": time}
+            found[f"cost-{way}-{k}"] = times(time, squared(ratio(noise, Quantity(NOISE))), "µs")
+    each = found[f"noise-all-{MOST}"]
+    alike, chosen = (
+        squared(ratio(found[f"noise-{way}-{MOST}"], each)) for way in ("uniform", "contribution")
+    )
+    found |= {"alike": times(alike, Quantity(1e-3), "thousand"), "chosen": chosen}
+    means: list[Any] = [
+        mean_of(reflected(run, f"{way}-{MOST}").mean((1, 2))) for way in ("contribution", "all")
+    ]
+    return found | {
+        "grows": ratio(found[f"noise-contribution-{MOST}"], found["noise-contribution-10"]),
+        "same": ratio(*means),
+        "closed-uniform": _points(run, "uniform"),
+        "closed-power": _points(run, "power"),
+    }
