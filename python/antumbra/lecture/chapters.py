@@ -32,6 +32,10 @@ SEGMENT = (
     "V(p, p′) = 0 if p + t (p′ − p) lies on a surface for some t strictly between 0 and 1, else 1",
 )
 
+PIXEL_AND_LIGHT = (
+    r"L = \int_{\text{pixel}} \int_{A_L} f_r L_e V \frac{\cos\theta \, \cos\theta'}{r^2} \, \text{d}A \, \text{d}x \approx \frac{1}{N} \sum_{j=1}^{N} \frac{f(\mark{x_j, p'_j})}{\text{pdf}(p'_j)}",
+    "L = ∫ over the pixel of ∫ over the light of f_r L_e V cos θ cos θ′ / r² dA dx ≈ (1/N) · sum over N samples of f(x, p′) / pdf(p′)",
+)
 BOUNCES = (
     r"L_o(p) = L_e + \mark{\int_{A_L} f_r \, L_e \, V \, \frac{\cos\theta \, \cos\theta'}{r^2} \, \text{d}A} + \int_{\Omega} f_r \, L_o(p') \, \cos\theta \, \text{d}\omega",
     "L_o(p) = L_e + ∫ over the lights of f_r L_e V cos θ cos θ′ / r² dA + ∫ over the hemisphere of f_r L_o(p′) cos θ dω",
