@@ -315,6 +315,10 @@ def test_print_shows_strips_and_answers(open_page):
     assert not tab.locator(".bar").is_visible() and not tab.locator("#one .slide").is_visible()
     assert tab.locator("#one .pan:visible").count() == 1
     assert tab.locator("#one .pn:visible").all_inner_texts() == ["random"]
+    # Drawing and key are of what the number is of; on the screen they give nothing away again.
+    assert tab.locator("#one .key span").first.inner_text() == "fact 2"
+    tab.emulate_media(media="screen")
+    tab.wait_for_function("document.querySelector('#one .frames > li.on').dataset.v == '1'")
 
 
 def test_a_map_says_what_its_colours_mean(open_page):

@@ -39,9 +39,10 @@ const stored = t => { try { return t ? localStorage.theme = t : localStorage.the
 theme(stored() || (matchMedia('(prefers-color-scheme:dark)').matches ? 'dark' : 'light'));
 dark.onclick = () => theme(stored(pressed(dark) ? 'light' : 'dark'));
 
-// On slides the third step answers, else the reader does.
+// Paper has all answers, on slides the third step answers, else the reader does.
+const paper = matchMedia('print');
 const settle = f => {
-  toggle(f, 'told', st.slides ? f.id == st.at && st.step > 1 : opened.has(f));
+  toggle(f, 'told', paper.matches || (st.slides ? f.id == st.at && st.step > 1 : opened.has(f)));
   controls.forEach(c => c.f == f && c.settle?.());
 };
 const open = (f, on = true) => {
@@ -56,6 +57,7 @@ const answer = (f, choice) => {
   $('.verdict', f).textContent = (!right || !choice ? rest : choice == right ? 'Yes. ' : 'Not so. ' + rest) + 'The number is below.';
   open(f);
 };
+paper.onchange = () => figures.forEach(settle);
 figures.forEach(f => {
   $('.ask button', f).onclick = () => { answer(f); $('.ans', f).focus() };
   // Pressed with the mouse on a slide, the choice gives the keys back to the slides.

@@ -31,8 +31,8 @@ def from_the_side(size: float, says: str) -> Drawing:
         drawing.light((_LIGHT, _MIDDLE - half), (_LIGHT, _MIDDLE + half))
     else:
         drawing.circle((_LIGHT, _MIDDLE), 5, LIGHT, stroke=INK)
-    drawing.text((4, 24), f"s = {size:g} m")
-    drawing.text((_BOARD - 6, 56), "occluder", anchor="end").text((_FLOOR - 8, 306), "receiver", anchor="end")
+    drawing.text((6, 30), f"s = {size:g} m")
+    drawing.text((_BOARD - 6, 76), "occluder", anchor="end").text((_FLOOR - 8, 306), "receiver", anchor="end")
     for a, b, word in ((_LIGHT, _BOARD, "d₁"), (_BOARD, _FLOOR, "d₂")):
         drawing.line((a + 4, 262), (b - 4, 262), faint=True)
         drawing.text(((a + b) / 2, 256), word, anchor="middle")

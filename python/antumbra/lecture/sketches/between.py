@@ -18,13 +18,14 @@ def plane_moved(
 ) -> Strip:
     """The plane at each height, without the test and with it: variants `off` and `on`; `cylinder`: axis and radius."""
     white = 1.3 * run.white(f"on{start}")
-    frames = [_frame(run, height, start, p, cylinder, white) for height in heights]
+    falling = sorted(heights, reverse=True)
+    frames = [_frame(run, height, start, p, cylinder, white) for height in falling]
     label = "Height of the plane [m]; the light is at 0, the cylinder above it"
     labels = ("seen along the cylinder", "--distance-test off", "on")
     note = (
         "Green: the part from p to the light, t from 0 to 1. Orange: what a ray without end goes on to find."
     )
-    return Strip("plane", label, frames, len(heights) - 1, labels, note=note, tells=heights.index(start))
+    return Strip("plane", label, frames, 0, labels, note=note, tells=falling.index(start))
 
 
 def _frame(

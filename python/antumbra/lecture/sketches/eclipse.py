@@ -32,7 +32,8 @@ def moon_moved(run: Run, sky: Bodies, distances: Sequence[int], width: float) ->
         f"The ground, {width:.0f} km across",
         "The sun from the ground, 0.7° across",
     )
-    return Strip("moon", "Distance of the moon, from centre to centre", frames, 0, labels)
+    tells = distances.index(round(sky.turns))
+    return Strip("moon", "Distance of the moon, from centre to centre", frames, 0, labels, tells=tells)
 
 
 def _frame(run: Run, sky: Bodies, d: int, at: Radii, white: float) -> Frame:

@@ -12,14 +12,13 @@ from antumbra.lecture.run import Run
 from antumbra.lecture.stages import Frame, Strip
 from antumbra.lecture.stages.regions import side_view
 
-_NAMES = ("light, R = 1", "occluder, r = ½", "a = 4")
-
 
 def receiver_moved(run: Run, disks: Disks, distances: Sequence[float], width: float) -> Strip:
     """Side view, map and picture of the receiver at each distance g behind the occluder: variants `g{g}`."""
     label = "Receiver, distance g behind the occluder"
     labels = ("Side view", "Region of every pixel", "Picture of the receiver")
-    return Strip("g", label, [_frame(run, disks, g, width) for g in distances], 2, labels)
+    return Strip("g", label, [_frame(run, disks, g, width) for g in distances], 0, labels,
+                 tells=distances.index(disks.length))  # fmt: skip
 
 
 def _frame(run: Run, disks: Disks, g: float, width: float) -> Frame:
@@ -42,5 +41,5 @@ def _frame(run: Run, disks: Disks, g: float, width: float) -> Frame:
     ]
     return Frame(
         f"{g:g}", f"g = {g}: {meaning}", pictures, f"g = {g}", f", penumbra out to {at.outside:.2f}",
-        side_view(disks, g, _NAMES), [f"{m:.3f} / {t:.3f}" if m else "none here" for m, t in found],
+        side_view(disks, g), [f"{m:.3f} / {t:.3f}" if m else "none here" for m, t in found],
     )  # fmt: skip

@@ -13,20 +13,24 @@ from antumbra.lecture.stages import Entry, Frame, Key, Part, Strip
 def starts_compared(
     run: Run, measured: Mapping[str, Quantity], files: Mapping[str, float], starts: Sequence[str]
 ) -> list[Part]:
-    """A frame for each start, a picture for each file (name: scale); quantities are those of `starts_measured`."""
+    """A frame for each start, "safe" first, a picture for each file (name: scale).
+
+    Quantities are those of `starts_measured`.
+    """
+    order = ["safe", *(start for start in starts if start != "safe")]
     white = 0.85 * run.white(*(f"safe-{file}-all" for file in files))
-    frames = [_frame(run, measured, list(files), start, white) for start in starts]
+    frames = [_frame(run, measured, list(files), start, white) for start in order]
     entries = [
         Entry("var(--soft)", file, f"one metre is {written(scale)}", fact=n, always=frames[0].facts[n])
         for n, (file, scale) in enumerate(files.items())
     ]
-    label = "Start of the shadow rays: at the point, ε above it in the units of the file, or where antumbra has it"
+    label = "Start of the shadow rays: where antumbra has it, at the point, or ε above it in the units of the file"
     note = (
         "One scene in three files. Wrong: pixels whose visibility differs from the closed form. "
         "Contact: the shadow at the foot of the board."
     )
     return [
-        Strip("start", label, frames, len(frames) - 1, [f"in {file}" for file in files]),
+        Strip("start", label, frames, 0, [f"in {file}" for file in files], tells=order.index("none")),
         Key(entries, "start", note),
     ]
 

@@ -13,11 +13,8 @@ from antumbra.lecture.stages.key import Entry, Key
 _SCALE, _LEFT, _WIDTH, _HEIGHT = 40.0, 36.0, 560.0, 320.0
 
 
-def side_view(disks: Disks, g: float, names: tuple[str, str, str] = ("", "", "")) -> Drawing:
-    """Light, occluder and receiver `g` behind it from the side: as high as a map of ± 4 units beside it.
-
-    `names`: labels of light, occluder and distance between them.
-    """
+def side_view(disks: Disks, g: float) -> Drawing:
+    """Light, occluder and receiver `g` behind it from the side: as high as a map of ± 4 units beside it."""
 
     def at(x: float, y: float) -> tuple[float, float]:
         return _LEFT + _SCALE * (disks.a + x), _HEIGHT / 2 - _SCALE * y
@@ -36,18 +33,27 @@ def side_view(disks: Disks, g: float, names: tuple[str, str, str] = ("", "", "")
         sketch.line(at(g, y), (_WIDTH, at(g, y)[1]), dash="2 4")
     sketch.light(at(-a, R), at(-a, -R)).line(at(0, r), at(0, -r), width=7)
     sketch.line((at(g, 0)[0], 6), (at(g, 0)[0], _HEIGHT - 6), width=3)
-    light, occluder, distance = names
-    if occluder:
-        # Over the occluder, clear of light and rays also where the text is large.
-        sketch.line((at(0, 0)[0], 70), at(0, r), dash="1 3").text(
-            (at(0, 0)[0], 62), occluder, anchor="middle", halo=LIT
-        )
-    sketch.text((24, 224), light).text((150, 224), distance, anchor="middle", fine=True)
-    sketch.text((at(g, 0)[0] - 8, 26), "receiver", anchor="end")
+    _labels(sketch, disks, at(g, 0)[0])
     state = "an umbra" if umbra > 0 else "an antumbra" if umbra < 0 else "the point where the umbra closes"
     return sketch.done(
         f"Side view: light, occluder, and the receiver {g:g} behind it, which meets {state} inside of the penumbra."
     )
+
+
+def _labels(sketch: Sketch, disks: Disks, receiver: float) -> None:
+    """Names and sizes, clear of each other, of rays and of the `receiver` also where text is 33 units high."""
+    R, r, a = disks
+    light, occluder, below = _LEFT, _LEFT + _SCALE * a, _HEIGHT - 58
+    sketch.text((8, 106), "light").text((8, 236), f"R = {R:g}")
+    sketch.line((occluder, 70), (occluder, _HEIGHT / 2 - _SCALE * r), dash="1 3")
+    sketch.text((occluder + 8, 62), "occluder", anchor="end")
+    sketch.text((occluder + 8, 236), f"r = {'½' if r == 0.5 else f'{r:g}'}", anchor="end")
+    sketch.line((light, below), (occluder, below))
+    for end in (light, occluder):
+        sketch.line((end, below - 6), (end, below + 6))
+    sketch.text(((light + occluder) / 2, below + 38), f"a = {a:g}", anchor="middle")
+    left = receiver < 0.7 * _WIDTH
+    sketch.text((receiver + (8 if left else -8), 30), "receiver", anchor="start" if left else "end")
 
 
 def regions_key(strip: str, facts: Sequence[int], note: str = "") -> Key:
