@@ -97,6 +97,15 @@ SMALL = """() => [...document.querySelectorAll('.fig.cur *')].filter(e => {
   const box = e.ownerSVGElement, scale = box ? box.getBoundingClientRect().width / box.viewBox.baseVal.width : 1;
   return parseFloat(getComputedStyle(e).fontSize) * scale < 27.9;
 }).map(e => `${e.tagName} ${e.textContent}`)"""
+# Labels of one drawing that lie on each other on a slide, by more than the air over and under a line of text (0.3).
+ON_EACH_OTHER = """() => [...document.querySelectorAll('.fig.cur svg')].filter(s => s.checkVisibility()).flatMap(s => {
+  const seen = [...s.querySelectorAll('text')].filter(e => e.checkVisibility({visibilityProperty: true}));
+  const all = seen.map(e => [e.textContent, e.getBoundingClientRect()]);
+  const wide = (p, q) => Math.min(p.right, q.right) - Math.max(p.left, q.left);
+  const high = (p, q) => Math.min(p.bottom, q.bottom) - Math.max(p.top, q.top);
+  const on = (p, q) => wide(p, q) > 0 && high(p, q) > 0.3 * Math.min(p.height, q.height);
+  return all.flatMap(([a, p], i) => all.slice(i + 1).filter(([, q]) => on(p, q)).map(([b]) => `${a} / ${b}`));
+})"""
 # Least size of the text of plots on paper [pt].
 PLOTTED = """() => Math.min(...[...document.querySelectorAll('.plot')].filter(p => p.checkVisibility()).map(p =>
   parseFloat(getComputedStyle(p.querySelector('text')).fontSize) * 0.75
@@ -127,4 +136,5 @@ def test_a_figure_fits_its_page_and_its_slides(name, folder, browser):
         tab.reload()
         assert tab.evaluate(OUTSIDE) == [], f"step {step} of the slide"
         assert tab.evaluate(SMALL) == [], f"step {step} of the slide"
+        assert tab.evaluate(ON_EACH_OTHER) == [], f"step {step} of the slide"
     tab.close()

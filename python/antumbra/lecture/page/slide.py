@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from math import ceil
 from typing import Any
 
@@ -28,39 +28,28 @@ def columns(pictures: Sequence[Mapping[str, Any]]) -> int:
 def rest(stage: Sequence[Mapping[str, Any]]) -> tuple[int, int]:
     """What is not picture of a stage's height [px]: on the slide of the pictures, and on that of the number.
 
-    There labels and key are gone. Of two parts of a kind, panels of tabs among them, the higher one counts.
+    There labels and key are gone.
     """
-    of: dict[str, int] = {}
-    for part in _parts(stage):
-        for what, height in _around(part):
-            of[what] = max(of.get(what, 0), height)
-    without = sum(height for what, height in of.items() if what not in ("labels", "key"))
-    return sum(of.values()), without
+    return _around(stage, whole=True), _around(stage, whole=False)
 
 
-def _parts(parts: Sequence[Mapping[str, Any]]) -> Iterator[Mapping[str, Any]]:
+def _around(parts: Sequence[Mapping[str, Any]], whole: bool) -> int:
+    """Height of what stands above and below the pictures of these parts, labels and key among it or not."""
+    height = 0
     for part in parts:
-        yield part
-        for panel in part.get("panels", ()):
-            yield from _parts(panel["parts"])
-
-
-def _around(part: Mapping[str, Any]) -> Iterator[tuple[str, int]]:
-    """Kinds and heights of what stands around the pictures of one part."""
-    if part["kind"] == "key":
-        yield "key", _KEY
-    if part["kind"] == "tabs":
-        yield "tabs", _TABS
-    if part["kind"] == "strip":
-        yield "slider", _SLIDER
-        yield "labels", _LABELS if part["labels"] else 0
-        yield from (("bars", _bar(p)) for frame in part["frames"] for p in frame["pictures"])
-    if part["kind"] == "row":
-        pictures = part["pictures"]
-        count = columns(pictures)
-        rows, width = ceil(len(pictures) / count), (_WIDTH - _GAP * (count - 1)) / count
-        yield "captions", rows * _under(pictures, width) + _OVER * (rows - 1)
-        yield "bars", max(map(_bar, pictures))
+        kind = part["kind"]
+        if kind == "key":
+            height += whole * _KEY
+        elif kind == "tabs":
+            height += _TABS + max(_around(panel["parts"], whole) for panel in part["panels"])
+        elif kind == "strip":
+            bars = (_bar(picture) for frame in part["frames"] for picture in frame["pictures"])
+            height += _SLIDER + (_LABELS if whole and part["labels"] else 0) + max(bars)
+        elif kind == "row":
+            pictures, count = part["pictures"], columns(part["pictures"])
+            rows, width = ceil(len(pictures) / count), (_WIDTH - _GAP * (count - 1)) / count
+            height += rows * _under(pictures, width) + _OVER * (rows - 1) + max(map(_bar, pictures))
+    return height
 
 
 def _under(pictures: Sequence[Mapping[str, Any]], width: float) -> int:
