@@ -1,0 +1,119 @@
+"""An edge and a penumbra for each split of a pixel's rays, the split that theory advises, and both in a plot."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from antumbra._words import written
+from antumbra.lecture.measures.noise import luminances
+from antumbra.lecture.measures.ratio import times
+from antumbra.lecture.measures.split import CROPS, RAYS, VIEWING, WIDTH, advised_map, key_of, scatter
+from antumbra.lecture.quantity import Quantity
+from antumbra.lecture.run import Run
+from antumbra.lecture.stages import Frame, Panel, Row, Strip, Table
+from antumbra.lecture.stages.quantities import curve_of, table_of
+from antumbra.study.plot import error_curves
+
+
+def splits(run: Run, found: Mapping[str, Quantity], white: float) -> Panel:
+    """A slider of the splits: each crop with its error."""
+    names = [*map(key_of, VIEWING), f"centre{RAYS - 1}"]
+    words = [key.replace("x", " × ") for key in names[:-1]] + [f"1 centred × {RAYS - 1}"]
+    frames = [_frame(run, found, *each, white) for each in zip(names, words, strict=True)]
+    note = (
+        "Errors of this one picture, of white: blue too dark, orange too bright. Viewing rays are random but for the "
+        "last, which goes through the centre."
+    )
+    label, columns = "Viewing rays × shadow rays of each", ("an edge and a penumbra", "their errors")
+    # It begins in the middle, where neither wins, and tells of its last frame.
+    return Panel("splits", f"{RAYS} rays", [Strip("split", label, frames, 5, columns, note, len(frames) - 1)])
+
+
+def _frame(run: Run, found: Mapping[str, Quantity], key: str, word: str, white: float) -> Frame:
+    ones = [luminances(run, f"{key}-{where}")[0] for where in CROPS]
+    off = [one - luminances(run, f"truth-{where}").mean(0) for one, where in zip(ones, CROPS, strict=True)]
+    edge, penumbra = (found[f"error-{key}-{where}"] for where in CROPS)
+    says = f"error {edge:1} at the edge, {penumbra:1} in the penumbra"
+    pictures = [
+        run.picture(_beside(ones, white), f"An edge and a penumbra, {word} rays.", name=key, white=white, noise=True),
+        run.map(
+            _beside(off, 0.0) / white, f"{word}: {says}, of white.", name=f"{key}-off", ramp="signed",
+            low=-0.2, high=0.2, unit="%", noise=True,
+        ),
+    ]  # fmt: skip
+    return Frame(key, f"{word}: {says}", pictures, short="centred" if "c" in key else word)
+
+
+def _beside(crops: list[NDArray[np.float64]], gap: float) -> NDArray[np.float64]:
+    """Two crops, a pixel of `gap` between them."""
+    first, second = crops
+    return np.concatenate([first, np.full((len(first), 1), gap), second], axis=1)
+
+
+def advice(run: Run, white: float) -> Panel:
+    """The whole picture with both crops outlined, and N* of each pixel."""
+    best, shown = advised_map(run), run.light("all-truth")
+    scale = shown.shape[1] / WIDTH
+    for x, y, width, height in CROPS.values():
+        left, top, right, bottom = (round(scale * side) for side in (x, y, x + width, y + height))
+        shown[[top, bottom], left : right + 1] = shown[top : bottom + 1, [left, right]] = white
+    where = "Pillars with two crops outlined: an edge of a pillar, and a penumbra."
+    says = f"Advised shadow rays, least at edges; the median is {written(float(np.nanmedian(best)), 2)}."
+    pictures = [
+        run.picture(shown, where, "the crops", name="crops", white=white, noise=True),
+        run.map(
+            np.log2(np.maximum(best, 1e-3)), says, "N*, shadow rays for each viewing ray", name="advised", ramp="amber",
+            low=0.0, high=6.0, unit="shadow rays", ticks={0: "1", 2: "4", 4: "16", 6: "64"}, noise=True,
+        ),
+    ]  # fmt: skip
+    note = (
+        "N* = σ_s/σ_p where both kinds of ray cost the same; below 1 it means 1. Variances are means over 3 × 3 "
+        f"of this picture's {shown.shape[1]} pixels a row: in larger ones more varies, and N* is less. "
+        "Black: edges, and no light."
+    )
+    return Panel("advised", "advised N*", [Row(pictures, note)])
+
+
+def noise_plot(run: Run, found: Mapping[str, Quantity], white: float) -> str:
+    """Noise of each split at `RAYS` rays, and the lines of theory."""
+    shadow = [RAYS / v - 1 for v in VIEWING]
+    curves = []
+    for where in reversed(CROPS):
+        of = scatter(run, where)
+        exact = np.vectorize(lambda n, of=of: np.sqrt(of.variance(RAYS / (1 + n), n)) / white)
+        marks = [found[f"noise-{key_of(v)}-{where}"] for v in VIEWING]
+        curves.append(curve_of(where, shadow, marks, exact, f"N* = {of.advised:.2g}"))
+    return error_curves(
+        curves, x_title="shadow rays of each viewing ray, N", y_title=f"noise over white, {RAYS} rays",
+        chosen="penumbra", x_ticks=[1, 4, 19, 49, 199], y_ticks=[0.2, 0.1, 0.05, 0.02, 0.01],
+        label="Noise against shadow rays for each viewing ray: at the edge it grows, in the penumbra it first falls.",
+    )  # fmt: skip
+
+
+def bias_and_noise(found: Mapping[str, Quantity]) -> Table:
+    """Bias and noise of the split that goes through the centre and of that which does not, at equal rays.
+
+    And at equal time, where `took`, the cost of a viewing ray over that of a shadow ray, was measured.
+    """
+    least = f"centre{RAYS - 1}"
+    rows = {
+        word: [found[f"{what}-{key}-{where}"] for where in CROPS for what in ("bias", "noise")]
+        for key, word in ((key_of(100), "100 × 1"), ("centre100", "1 × 100"), (least, f"1 × {RAYS - 1}"))
+    }
+    note = "In % of white. 1 × N goes through the centre. Rays: 200, 101, 200."
+    if took := found.get("took"):
+        # As many shadow rays as take the time of 100 × 1: c_v + M c_s = 100 (c_v + c_s).
+        longer = round(100 + 99 * took.value)
+        less = Quantity(((RAYS - 1) / longer) ** 0.5)
+        rows[f"1 × {longer}"] = [
+            q if n % 2 == 0 else times(q, less, "%") for n, q in enumerate(rows[f"1 × {RAYS - 1}"])
+        ]
+        note += (
+            f" 1 × {longer} takes the time of 100 × 1: a viewing ray took {took:r} shadow rays. "
+            f"Its noise is that of {RAYS - 1}, times √({RAYS - 1}/{longer})."
+        )
+    head = ("split", "edge: bias", "noise", "penumbra: bias", "noise")
+    return table_of(head, rows, "Bias and noise at an edge and in a penumbra, by split", note=note, bare=True)
