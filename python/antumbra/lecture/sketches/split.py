@@ -28,8 +28,7 @@ def splits(run: Run, found: Mapping[str, Quantity], white: float) -> Panel:
         "last, which goes through the centre."
     )
     label, columns = "Viewing rays × shadow rays of each", ("an edge and a penumbra", "their errors")
-    # It begins in the middle, where neither wins, and tells of its last frame.
-    return Panel("splits", f"{RAYS} rays", [Strip("split", label, frames, 5, columns, note, len(frames) - 1)])
+    return Panel("splits", f"{RAYS} rays", [Strip("split", label, frames, 0, columns, note, len(frames) - 1)])
 
 
 def _frame(run: Run, found: Mapping[str, Quantity], key: str, word: str, white: float) -> Frame:
