@@ -83,8 +83,8 @@ def test_sliders_have_a_dozen_frames_and_begin_before_the_answer(name, folder):
 
 # What of a slide is seen and lies outside of the screen, as text for the message.
 OUTSIDE = """() => [...document.querySelectorAll('.fig.cur *')].filter(e => {
-  const looked = 'p, b, span, img, button, td, th, output, input, small, figcaption, var, svg';
-  if (!e.offsetParent || e.closest('.sr') || !e.matches(looked)) return false;
+  const looked = 'p, b, span, img, button, td, th, output, input, small, figcaption, var, svg, text';
+  if (!e.checkVisibility() || e.closest('.sr') || !e.matches(looked)) return false;
   const b = e.getBoundingClientRect();
   return b.width && (b.right > innerWidth + 1 || b.left < -1 || b.bottom > innerHeight + 1 || b.top < -1);
 }).map(e => `${e.tagName} ${e.className} ${e.innerText || e.alt || ''}`)"""

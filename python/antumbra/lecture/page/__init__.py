@@ -123,12 +123,12 @@ def columns(cells: Sequence[Mapping[str, Any]]) -> str:
 
 
 def aspect(cells: Sequence[Mapping[str, Any]], at_most: int = 99) -> str:
-    """Width over height of equally high cells, at most so many in a row."""
+    """Width over height of equally high cells in a row, or of rows of `at_most` equally wide ones."""
     ratios = [cell["width"] / cell["height"] for cell in cells]
     if len(ratios) <= at_most:
         return f"{sum(ratios):.4g}"
     rows = -(-len(ratios) // at_most)
-    return f"{at_most * max(ratios) / rows:.4g}"
+    return f"{at_most * min(ratios) / rows:.4g}"
 
 
 def printed(frames: int, start: int, at_most: int = 6) -> set[int]:

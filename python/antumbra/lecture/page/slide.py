@@ -10,13 +10,15 @@ from typing import Any
 _WIDTH, _HEIGHT, _GAP = 1184, 520, 24
 # Its type is 28 px: a line, the mean width of a character, the space over a caption [px].
 _LINE, _CHARACTER, _OVER = 34, 15, 8
-# Labels over columns (two lines), a slider, a key, tabs (one line), a colour bar and each more line of it [px].
+# Labels over columns (two lines), a slider, a key, a line of tabs, a colour bar and each more line of it [px].
 _LABELS, _SLIDER, _KEY, _TABS, _BAR, _NAME = 76, 52, 70, 64, 60, 40
+# What a tab has beside its name [px].
+_BUTTON = 52
 
 
 def columns(pictures: Sequence[Mapping[str, Any]]) -> int:
-    """In how many columns equal pictures, each over its caption, are seen largest."""
-    ratio: float = max(p["width"] / p["height"] for p in pictures)
+    """In how many columns equally wide pictures, each over its caption, are seen largest; the highest decides."""
+    ratio: float = min(p["width"] / p["height"] for p in pictures)
 
     def wide(count: int) -> float:
         rows, width = ceil(len(pictures) / count), (_WIDTH - _GAP * (count - 1)) / count
@@ -28,9 +30,14 @@ def columns(pictures: Sequence[Mapping[str, Any]]) -> int:
 def rest(stage: Sequence[Mapping[str, Any]]) -> tuple[int, int]:
     """What is not picture of a stage's height [px]: on the slide of the pictures, and on that of the number.
 
-    There labels and key are gone.
+    There labels and key are gone. Of tabs it is that of the buttons; `own` is that of a panel.
     """
     return _around(stage, whole=True), _around(stage, whole=False)
+
+
+def own(panel: Mapping[str, Any]) -> int:
+    """What is not picture of the height of a panel of tabs [px]."""
+    return _around(panel["parts"], whole=True)
 
 
 def _around(parts: Sequence[Mapping[str, Any]], whole: bool) -> int:
@@ -41,7 +48,8 @@ def _around(parts: Sequence[Mapping[str, Any]], whole: bool) -> int:
         if kind == "key":
             height += whole * _KEY
         elif kind == "tabs":
-            height += _TABS + max(_around(panel["parts"], whole) for panel in part["panels"])
+            names = sum(_CHARACTER * len(panel["name"]) + _BUTTON for panel in part["panels"])
+            height += _TABS * ceil(names / _WIDTH)
         elif kind == "strip":
             bars = (_bar(picture) for frame in part["frames"] for picture in frame["pictures"])
             height += _SLIDER + (_LABELS if whole and part["labels"] else 0) + max(bars)
