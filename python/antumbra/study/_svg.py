@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import re
+from collections.abc import Mapping
 from html import escape
 from typing import TYPE_CHECKING
 from xml.etree import ElementTree
@@ -20,13 +21,15 @@ def converted(figure: Figure, names: list[str], on: str, label: str) -> str:
     file = io.StringIO()
     figure.savefig(file, format="svg", metadata={"Date": None, "Creator": None})
     root = ElementTree.fromstring(file.getvalue())
+    # A shape stands where it is used first, and later curves point there.
+    shapes = {path.get("id"): path.get("d", "") for path in root.iterfind(f".//{_SVG}defs/{_SVG}path")}
     shared: list[str] = []
     groups: list[list[str]] = [[] for _ in names]
     for group in root.iter(f"{_SVG}g"):
         mark, _, rest = group.get("id", "").partition("|")
         if mark == "antumbra":
             number, _, kind = rest.partition("|")
-            (groups[int(number)] if number else shared).extend(_elements(group, kind))
+            (groups[int(number)] if number else shared).extend(_elements(group, kind, shapes))
     width, height = (round(float(v)) for v in root.get("viewBox", "0 0 0 0").split()[2:])
     curves = (
         f'<g data-s="{escape(name)}"{" class=on" if name == on else ""}>{"".join(parts)}</g>'.replace(
@@ -40,9 +43,8 @@ def converted(figure: Figure, names: list[str], on: str, label: str) -> str:
     )
 
 
-def _elements(group: ElementTree.Element, kind: str) -> list[str]:
+def _elements(group: ElementTree.Element, kind: str, shapes: Mapping[str | None, str]) -> list[str]:
     named = f' class="{kind}"' if kind else ""
-    shapes = {path.get("id"): path.get("d", "") for path in group.findall(f"{_SVG}defs/{_SVG}path")}
     found = []
     for path in group.findall(f"{_SVG}path"):
         found.append(f'<path{named} d="{_short(path.get("d", ""))}"/>')

@@ -91,6 +91,15 @@ def test_one_replicate_has_a_line_without_a_band():
     assert 'class="ln"' in svg and 'class="bd"' not in svg and 'class="eb"' not in svg
 
 
+def test_curves_share_shapes_when_there_are_more_than_shapes():
+    y = [1.0, 0.5, 0.2]
+    low, high = np.multiply(y, 0.9), np.multiply(y, 1.1)
+    crowd = [plot.Curve(f"curve {i}", [1, 4, 16], y, low.tolist(), high.tolist()) for i in range(12)]
+    groups = ElementTree.fromstring(drawn(crowd)).findall("g")
+    marks = [[path for path in group.findall("path") if path.get("class") == "mk"] for group in groups]
+    assert [len(each) for each in marks] == [3] * 12
+
+
 def test_many_curves_make_a_higher_plot():
     names = [f"curve {i}" for i in range(12)]
     root = ElementTree.fromstring(drawn(curves(*names)))

@@ -1,0 +1,47 @@
+"""Figure 26: every technique of the lecture on one scene: rays, time, error, efficiency."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from antumbra.lecture.figure import Claim, Equation, Figure, Number, Pick, Question, Variant
+from antumbra.lecture.measures.summary import COUNTS, WAYS, of_ways
+from antumbra.lecture.quantity import Quantity
+from antumbra.lecture.run import Run
+from antumbra.lecture.scenes import PILLARS_VIEW, two_windows
+from antumbra.lecture.sketches.summary import one_by_one, sorted_tables
+from antumbra.lecture.stages import Part
+
+LOOK = PILLARS_VIEW | {
+    "size": Pick((60, 42), (160, 112)),
+    "viewing": "centre",
+    "viewing_rays": 1,
+    "sampler": "random",
+}
+TRUTH = LOOK | {"estimator": "mis", "sampler": "owen", "shadow_rays": Pick(128, 1024)}
+
+
+def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
+    return [one_by_one(run, found), sorted_tables(run, found)]
+
+
+FIGURE = Figure(
+    number=26, chapter=6, title="Every technique, one picture", seconds=Pick(8, 90),
+    question=Question("Twelve techniques, 64 samples a pixel each. How many times fewer samples than directions drawn evenly does the best one need for the same error?",
+                      ("about 50", "about 500", "more than 5,000"), 2, ("fewer",)),
+    variants=[
+        Variant("truth", two_windows(), TRUTH, 4, truth=True),
+        *(Variant(f"{key}-{n}", two_windows(), LOOK | way.of(n), Pick(4, 6)) for key, way in WAYS.items() for n in COUNTS),
+    ],
+    measure=of_ways, stage=_stage, exr=["truth", "best-64"],
+    answer=Number("fewer", "Points of the lights instead of directions, each light by itself, and well spread. By time the order is much the same.", before="÷ "),
+    equation=Equation([(r"\varepsilon = \frac{1}{\mark{\text{Var}} \cdot \mark{t}}", "efficiency = 1 / (variance · time)")],
+                      "Marked: twice the samples halve one and double the other, so ε stays; but for samplers that do better than random."),
+    claims=[
+        Claim("The best technique needs less than 1/5,000 of the samples.", "fewer", above=5, main=True, measured="1 in {fewer}"),
+        Claim("Twelve techniques, one mean.", "off", near=1.0, within=0.01, measured="the farthest: {off:1}"),
+        Claim("Asking each light is worth more than choosing one.", "sample-each", above="sample-chosen", measured="× {sample-each:v}, × {sample-chosen:v}"),
+        Claim("Under a square light alone, variances are those of closed forms.", "square-even", near=1.0, within=0.05,
+              measured="directions: {square-even:1} of it"),
+    ],
+)  # fmt: skip
