@@ -101,6 +101,16 @@ class Scene:
     def ambient_occlusion(
         self, points: Receivers | _Rows, normals: _Rows | None, words: _Words
     ) -> tuple[_F32, _F32]: ...
+    def occlusion_masks(
+        self,
+        points: Receivers | _Rows,
+        normals: _Rows | None,
+        directions: int,
+        radius: float,
+        falloff: str,
+        method: str,
+        turned: bool,
+    ) -> tuple[NDArray[np.uint64], _F32, _F32, _F32, list[int]]: ...
     def visible_fraction(
         self, points: Receivers | _Rows, normals: _Rows | None, light: str, words: _Words
     ) -> tuple[_F32, _F32]: ...

@@ -26,6 +26,7 @@ from antumbra.image import Image
 from antumbra.lights import Environment, Light
 from antumbra.materials import Blend, Diffuse, Material, TwoSided
 from antumbra.messages import Message, Progress
+from antumbra.occlusion import Openings
 from antumbra.pieces import Pieces
 from antumbra.shapes import Shape
 
@@ -81,7 +82,7 @@ def builtins() -> dict[str, str]:
     return {name: shows for name, shows, _ in _core.builtins()}
 
 
-class Scene(Anatomy, Pieces):
+class Scene(Anatomy, Openings, Pieces):
     """What there is to see. An empty one is filled by `add_mesh`, `add_shape` and `add_light`.
 
     >>> import numpy as np, antumbra as am

@@ -7,6 +7,7 @@ mod errors;
 mod info;
 mod kinds;
 mod meshes;
+mod occlusion;
 mod picture;
 mod pieces;
 mod query;

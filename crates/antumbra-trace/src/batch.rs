@@ -225,6 +225,12 @@ impl Bits {
         self.words[k] = bits;
     }
 
+    /// Bits 64·`k` … 64·`k` + 63.
+    #[inline]
+    pub(crate) fn word(&self, k: usize) -> u64 {
+        self.words[k]
+    }
+
     /// Number of set bits.
     pub fn count(&self) -> usize {
         self.words.iter().map(|w| w.count_ones() as usize).sum()

@@ -69,7 +69,13 @@ impl<P: Passes> Visibility for Masked<'_, P> {
 }
 
 #[inline(always)]
-fn occluded<S: Simd>(simd: S, world: &World, segments: &Segments<'_>, masks: &impl Masks, out: &mut Bits) {
+pub(crate) fn occluded<S: Simd>(
+    simd: S,
+    world: &World,
+    segments: &Segments<'_>,
+    masks: &impl Masks,
+    out: &mut Bits,
+) {
     out.reset(segments.len());
     let lines = Lines::of(segments);
     let mut room = Room::new(world.ways, &world.triangles);

@@ -14,6 +14,7 @@ pub mod law;
 mod layout;
 mod level;
 mod object;
+pub mod occlusion;
 mod passes;
 mod place;
 pub mod start;

@@ -154,7 +154,12 @@ pub(crate) fn nearest_triangle_exact<M: Masks>(
 
 /// Shapes and instances.
 #[inline(always)]
-fn any_other<S: Simd, M: Masks>(simd: S, world: &World, fast: &FastLine, ask: &Ask<'_, M>) -> bool {
+pub(crate) fn any_other<S: Simd, M: Masks>(
+    simd: S,
+    world: &World,
+    fast: &FastLine,
+    ask: &Ask<'_, M>,
+) -> bool {
     let line = ask.line();
     if !line.is_valid() {
         return false;

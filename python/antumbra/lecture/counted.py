@@ -13,6 +13,7 @@ from antumbra.estimate import Estimate
 from antumbra.explanation import Explanation
 from antumbra.hit import Hit
 from antumbra.image import Image
+from antumbra.occlusion import Occlusion
 from antumbra.scene import Scene
 
 
@@ -50,6 +51,12 @@ class Counted(Scene):
         """As of a scene."""
         found = super().visible_fraction(*of, **options)
         self._count(len(found.values) * found.rays)
+        return found
+
+    def occlusion_masks(self, *of: Any, **options: Any) -> Occlusion:
+        """As of a scene; every direction of a point is a ray."""
+        found = super().occlusion_masks(*of, **options)
+        self._count(64 * found.masks.size)
         return found
 
     def regions(self, *of: Any, **options: Any) -> NDArray[np.int8]:

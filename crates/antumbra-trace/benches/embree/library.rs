@@ -1,42 +1,16 @@
 //! Embree 4 through its C interface, loaded at run time: the peer of the race, never a dependency.
 
 use std::ffi::{CString, c_char, c_int, c_void};
-use std::sync::atomic::{AtomicI32, AtomicIsize, Ordering};
+use std::sync::atomic::{AtomicIsize, Ordering};
 
 use antumbra_trace::{Segments, TO_POINT, Triangles};
 
+use crate::clock::now;
 use crate::packets::{self, Arguments, Mode, Packet};
 
 unsafe extern "C" {
     fn dlopen(file: *const c_char, flags: c_int) -> *mut c_void;
-    fn clock_gettime(clock: c_int, time: *mut Time) -> c_int;
     fn dlsym(library: *mut c_void, name: *const c_char) -> *mut c_void;
-}
-
-/// Seconds and nanoseconds, as the system writes them.
-#[repr(C)]
-struct Time {
-    seconds: i64,
-    nanoseconds: i64,
-}
-
-const WALL: c_int = 1;
-const CPU_OF_THREAD: c_int = 3;
-
-/// Which clock [`now`] reads.
-static CLOCK: AtomicI32 = AtomicI32::new(CPU_OF_THREAD);
-
-/// From now on by the clock on the wall: for work of several threads.
-pub fn use_wall_clock() {
-    CLOCK.store(WALL, Ordering::Relaxed);
-}
-
-/// Processor time of this thread [s] (what the other work on a shared machine disturbs least), or wall time.
-pub fn now() -> f64 {
-    let mut time = Time { seconds: 0, nanoseconds: 0 };
-    // SAFETY: `time` has the layout of timespec on 64-bit Linux and lives through the call.
-    unsafe { clock_gettime(CLOCK.load(Ordering::Relaxed), &mut time) };
-    time.seconds as f64 + time.nanoseconds as f64 * 1e-9
 }
 
 const RTLD_NOW: c_int = 2;

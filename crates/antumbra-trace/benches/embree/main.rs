@@ -7,6 +7,7 @@
 //! `ANTUMBRA_SIMD` forces a level, `ANTUMBRA_WAYS` (together, packets, walls, alone) a way, `ANTUMBRA_CLASS` picks one class of rays,
 //! `ANTUMBRA_THREADS` above 1 races the builds alone, with as many threads, by the clock on the wall.
 
+mod clock;
 mod given;
 mod library;
 mod packets;
@@ -15,7 +16,8 @@ mod rays;
 mod scenes;
 
 use antumbra_trace::{BuildOptions, Geometry, Instance, Pool, SimdLevel, Triangles, Ways, World};
-use library::{Embree, now, use_wall_clock};
+use clock::{now, use_wall_clock};
+use library::Embree;
 
 const ROUNDS: usize = 7;
 

@@ -53,7 +53,7 @@ struct Receiver {
 }
 
 /// Camera rays in rows of tiles of 8 × 8, each of four blocks of 4 × 4.
-fn camera(scene: &Scene) -> SegmentBuffer {
+pub fn camera(scene: &Scene) -> SegmentBuffer {
     let [eye, at] = scene.view;
     let forward = unit(sub(at, eye));
     let right = unit(cross(forward, [0.0, 1.0, 0.0]));

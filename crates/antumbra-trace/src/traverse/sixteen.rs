@@ -14,9 +14,9 @@ pub(crate) const PACKET: usize = 16;
 type Row8 = [f32; WIDTH];
 
 /// Eight triangles seen from a point c: A, B, C are the corners minus c.
-pub(super) struct Seen {
+pub(crate) struct Seen {
     /// e_i × (A_i + A_i+1), by edge.
-    turn: [[Row8; 3]; 3],
+    pub turn: [[Row8; 3]; 3],
     /// e_i; only for origins of their own.
     edge: [[Row8; 3]; 3],
     /// n = e0 × e1.
@@ -24,13 +24,13 @@ pub(super) struct Seen {
     /// P + 2⁻¹²⁰, P = |e0| X |e1|.
     span: [Row8; 3],
     /// A·n, and the bound of V.
-    volume: [Row8; 2],
+    pub volume: [Row8; 2],
     /// What the bound of the edges is, but for 40 u D1: E (L + |q|∞), a fifth more for origins of their own.
-    bound: Row8,
+    pub bound: Row8,
 }
 
 impl Seen {
-    /// From `c`; with `OWN` origins, which lie within `q` of it in every component.
+    /// From `c`, or each from its own lane of it; with `OWN` origins, which lie within `q` of it in every component.
     #[inline(always)]
     pub fn of<S: Simd, const OWN: bool>(simd: S, block: &TriangleBlock, c: V3<S>, q: f32) -> Seen {
         let [va, vb, vc] = &block.corners;
@@ -77,7 +77,7 @@ fn dot<S: Simd>(simd: S, v: &[f32x16<S>; 3], of: &[Row8; 3], lane: usize, rest: 
 
 /// Sixteen lines: what triangles read of them.
 #[derive(Clone, Copy)]
-pub(super) struct Sixteen<S: Simd> {
+pub(crate) struct Sixteen<S: Simd> {
     pub d: [f32x16<S>; 3],
     /// q = o − c; 0 for a common origin.
     pub q: [f32x16<S>; 3],
@@ -89,7 +89,7 @@ pub(super) struct Sixteen<S: Simd> {
 }
 
 /// Which lines hit a triangle for certain, and for which only the law can say.
-pub(super) struct Met {
+pub(crate) struct Met {
     pub hit: u32,
     pub open: u32,
 }

@@ -63,6 +63,18 @@ impl<S: Simd> V3<S> {
         V3 { x: self.x.abs(), y: self.y.abs(), z: self.z.abs() }
     }
 
+    /// The smaller one, by component.
+    #[inline(always)]
+    pub fn smaller(self, b: V3<S>) -> V3<S> {
+        V3 { x: self.x.min(b.x), y: self.y.min(b.y), z: self.z.min(b.z) }
+    }
+
+    /// The larger one, by component.
+    #[inline(always)]
+    pub fn larger(self, b: V3<S>) -> V3<S> {
+        V3 { x: self.x.max(b.x), y: self.y.max(b.y), z: self.z.max(b.z) }
+    }
+
     /// The largest component.
     #[inline(always)]
     pub fn largest(self) -> f32x8<S> {

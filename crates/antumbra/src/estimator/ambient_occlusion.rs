@@ -25,7 +25,7 @@ pub enum Falloff {
 impl Falloff {
     /// A length l in (0, R] with P(l > t) = weight of t.
     #[inline]
-    fn length(self, radius: f32, u: f32) -> f32 {
+    pub(crate) fn length(self, radius: f32, u: f32) -> f32 {
         match self {
             Falloff::None => radius,
             Falloff::Linear => radius * (1.0 - u),

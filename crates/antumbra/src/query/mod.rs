@@ -2,6 +2,7 @@
 
 mod light;
 mod light_points;
+mod occlusion;
 mod order;
 mod rays;
 mod reflect;
@@ -10,6 +11,7 @@ mod visits;
 
 pub use light::{Estimated, ambient_occlusion, irradiance, visible_fraction};
 pub use light_points::{LightDraw, LightFound, find_light, sample_light};
+pub use occlusion::{Occlusion, directions, occlusion_masks};
 pub use rays::{Fill, RayHit, closest_hit, occluded};
 pub use reflect::{Directions, brdf};
 pub use regions::{Region, RegionFinder, RegionScratch, regions};
