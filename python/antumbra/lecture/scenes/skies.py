@@ -34,6 +34,8 @@ _BOXES = (
     ((1, 3), (2, 62), (1.5, 1.5, 1.5)),
 )
 TURNS = 16
+# Sides of the sphere along a patch.
+_SIDES = 8
 
 
 def lights_of(sky: str) -> list[str]:
@@ -86,8 +88,8 @@ def in_sphere(radii: float) -> SceneOf:
 
     def build() -> am.Scene:
         scene = am.builtin("sky-dome")
-        fine = 2
-        room = studio().repeat(fine, 0).repeat(fine, 1)
+        # Sides that run along a parallel are straight: many of them, so that they stay near it.
+        room = studio().repeat(_SIDES, axis=1)
         rows, columns, _ = room.shape
         theta, phi = np.linspace(0, math.pi, rows + 1)[:, None], np.linspace(0, 2 * math.pi, columns + 1)
         points = [np.sin(phi) * np.sin(theta), np.cos(theta) + 0 * phi, -np.cos(phi) * np.sin(theta)]

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
+from antumbra._words import written
 from antumbra.lecture.measures.many_lights import LAMPS, MOST, WAYS, forecast, measured, reflected
 from antumbra.lecture.quantity import Quantity
 from antumbra.lecture.run import Run
@@ -60,7 +61,7 @@ def table(run: Run, found: Mapping[str, Quantity]) -> Table:
     for k in run.pick(LAMPS):
         noise = [found.get(f"noise-{way}-{k}", "") for way in WAYS]
         ms = found[f"time-all-{min(k, MOST)}"].value * max(k / MOST, 1.0) / 1000
-        rows[f"{k:,}"] = [*noise, f"{ms:.2g}" if k <= MOST else f"≈ {ms:.2g}"]
+        rows[f"{k:,}"] = [*noise, written(ms, 2) if k <= MOST else f"≈ {written(ms, 2)}"]
     return table_of(
         ("lamps", *_NAMES.values(), "its ms"), rows,
         "Noise of one ray, by the way a lamp is drawn for it, and of one to each lamp, with its time", bare=True,
