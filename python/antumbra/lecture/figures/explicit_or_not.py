@@ -22,8 +22,8 @@ COUNTS = [1, 4, 16, 64, 256]
 # Whether the lamp is met by chance, or asked at each bounce.
 WAYS = {"chance": "path-hemisphere", "asked": "path"}
 FITTED = dict.fromkeys(WAYS, COUNTS)
-LOOK = {"size": Pick((44, 44), (200, 200)), "viewing": "centre", "sampler": "random"}
-TRUTH = LOOK | {"estimator": "path", "sampler": "owen", "viewing_rays": Pick(128, 1024)}
+LOOK = {"size": Pick((44, 44), (144, 144)), "viewing": "centre", "sampler": "random"}
+TRUTH = LOOK | {"estimator": "path", "sampler": "owen", "viewing_rays": Pick(128, 512)}
 
 
 def _errors(run: Run) -> Errors:

@@ -58,13 +58,13 @@ def scatter(run: Run, where: str) -> Scatter:
     return Scatter(place.var(0, ddof=1) - light / MANY, light)
 
 
-def advised_map(run: Run) -> NDArray[np.float64]:
-    """N* of each pixel, over 3 × 3 of them; NaN where nothing scatters."""
+def advised_map(run: Run, faint: float) -> NDArray[np.float64]:
+    """N* of each pixel, over 3 × 3 of them; NaN where one ray scatters less than `faint` [W·m⁻²·sr⁻¹]."""
     of = scatter(run, "all")
     place, light = (np.maximum(box_mean(each, 1), 0.0) for each in of)
     with np.errstate(divide="ignore", invalid="ignore"):
         found: NDArray[np.float64] = np.sqrt(light / place)
-    return np.where(place + light > 1e-12, found, np.nan)
+    return np.where(place + light > faint**2, found, np.nan)
 
 
 def _mse(run: Run, key: str, where: str) -> Quantity:

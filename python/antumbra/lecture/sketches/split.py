@@ -9,7 +9,6 @@ from numpy.typing import NDArray
 
 from antumbra._words import written
 from antumbra.lecture.measures.noise import luminances
-from antumbra.lecture.measures.ratio import times
 from antumbra.lecture.measures.split import CROPS, RAYS, VIEWING, WIDTH, advised_map, key_of, scatter
 from antumbra.lecture.quantity import Quantity
 from antumbra.lecture.run import Run
@@ -54,7 +53,7 @@ def _beside(crops: list[NDArray[np.float64]], gap: float) -> NDArray[np.float64]
 
 def advice(run: Run, white: float) -> Panel:
     """The whole picture with both crops outlined, and N* of each pixel."""
-    best, shown = advised_map(run), run.light("all-truth")
+    best, shown = advised_map(run, 0.005 * white), run.light("all-truth")
     scale = shown.shape[1] / WIDTH
     for x, y, width, height in CROPS.values():
         left, top, right, bottom = (round(scale * side) for side in (x, y, x + width, y + height))
@@ -98,18 +97,20 @@ def bias_and_noise(found: Mapping[str, Quantity]) -> Table:
     And at equal time, where `took`, the cost of a viewing ray over that of a shadow ray, was measured.
     """
     least = f"centre{RAYS - 1}"
-    rows = {
-        word: [found[f"{what}-{key}-{where}"] for where in CROPS for what in ("bias", "noise")]
-        for key, word in ((key_of(100), "100 × 1"), ("centre100", "1 × 100"), (least, f"1 × {RAYS - 1}"))
-    }
-    note = "In % of white. 1 × N goes through the centre. Rays: 200, 101, 200."
+    kept = {key_of(100): "100 × 1", "centre100": "1 × 100", least: f"1 × {RAYS - 1}"}
+    noises = [found[f"noise-{key}-{where}"] for key in kept for where in CROPS]
+    sure = max(noise.error / noise.value for noise in noises)
+    note = f"In % of white; noise within {100 * sure:.0f} % of itself. 1 × N goes through the centre. Rays: 200, 101, 200."
+
+    def row(key: str, less: float = 1.0) -> list[Quantity | str]:
+        cells = ((found[f"bias-{key}-{where}"], found[f"noise-{key}-{where}"]) for where in CROPS)
+        return [cell for bias, noise in cells for cell in (bias, f"{100 * less * noise.value:.2f}")]
+
+    rows = {word: row(key) for key, word in kept.items()}
     if took := found.get("took"):
         # As many shadow rays as take the time of 100 × 1: c_v + M c_s = 100 (c_v + c_s).
         longer = round(100 + 99 * took.value)
-        less = Quantity(((RAYS - 1) / longer) ** 0.5)
-        rows[f"1 × {longer}"] = [
-            q if n % 2 == 0 else times(q, less, "%") for n, q in enumerate(rows[f"1 × {RAYS - 1}"])
-        ]
+        rows[f"1 × {longer}"] = row(least, ((RAYS - 1) / longer) ** 0.5)
         note += (
             f" 1 × {longer} takes the time of 100 × 1: a viewing ray took {took:r} shadow rays. "
             f"Its noise is that of {RAYS - 1}, times √({RAYS - 1}/{longer})."
