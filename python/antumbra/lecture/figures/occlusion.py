@@ -53,7 +53,7 @@ def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
     errors, truth = _errors(run), reference(run, "smooth", 1.0)
     strip = Strip("radius", "How far the rays look", [at_radius(run, found, r) for r in RADII], 0, ("up to R", "fading, 1 − t/R"))
     rows_of = {s: [Row([*counts(run, errors, s, SHOWN, 1.0), truth])] for s in SAMPLERS}
-    short = Panel("short", "only so far", [strip])
+    short = Panel("short", "radius", [strip])
     tabs = Tabs("directions", "Directions", [*(Panel(s, s, row) for s, row in rows_of.items()), short, sky_panel(run), identity_panel(run, found)])
     svg = error_curves(
         [errors.curve(s, FITTED) for s in SAMPLERS], x_title="directions per point, N", y_title="RMSE, one random one is 1", chosen="random",

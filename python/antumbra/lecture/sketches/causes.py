@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from antumbra._words import written
 from antumbra.lecture.measures.causes import KNOWN, PAIRS, SQUARES, parts
 from antumbra.lecture.quantity import Quantity
 from antumbra.lecture.run import Run
@@ -14,9 +15,9 @@ from antumbra.lecture.stages import Drawing, Panel, Picture, Row, Sketch, Tabs
 from antumbra.lecture.stages.drawing import INK, LIT, PENUMBRA
 from antumbra.lecture.stages.quantities import tabs_of
 
-_KNOWN = {
-    "visibility": "visibility, ḡ² Var V", "geometry": "geometry, v̄² Var g", "interaction": "V with g", "whole": "all",
-}  # fmt: skip
+# Under the half-hidden disk: the parts, and the size of a drawing.
+_KNOWN = {"visibility": "visibility", "geometry": "geometry", "interaction": "V with g", "whole": "all"}
+_KNOWN_SIZE = (380.0, 300.0)
 
 
 def causes(run: Run, found: Mapping[str, Quantity], one: Picture) -> Tabs:
@@ -45,45 +46,43 @@ def causes(run: Run, found: Mapping[str, Quantity], one: Picture) -> Tabs:
     rows = {name: (words, [one, total, shown(name, words)]) for name, words in SQUARES.items()}
     pairs = [shown(name, words, signed=True) for name, words in PAIRS.items()]
     maps = tabs_of("cause", "Cause of the noise", {**rows, "covariances": ("covariances", pairs)})
-    return replace(maps, panels=[*maps.panels, Panel("known", "known answer", [half_hidden(found)])])
+    return replace(maps, panels=[*maps.panels, Panel("known", "known", [half_hidden(found)])])
 
 
 def half_hidden(found: Mapping[str, Quantity]) -> Row:
     """The half-hidden disk from the side, and its parts: by closed form, and measured (`half-…` of `found`)."""
-    note = "Bars: variance of one shadow ray, measured; lines: closed forms. Then measured / closed form, in W² m⁻⁴."
+    most = max(found[f"half-{name}"].error for name in _KNOWN)
+    note = (
+        f"Bars: variance of one shadow ray [W² m⁻⁴], measured within {written(most, 1)}; lines: closed forms. "
+        "Numbers: measured / closed form. ḡ² Var V, v̄² Var g, Var (V − v̄)(g − ḡ), and all; covariances are 0."
+    )
     return Row([_from_the_side(), _bars(found)], note)
 
 
 def _from_the_side() -> Drawing:
-    sketch, receiver, (left, right, top, plate) = (
-        Sketch(620, 440, ground=LIT),
-        (310.0, 390.0),
-        (70.0, 550.0, 60.0, 230.0),
-    )
-    sketch.polygon([receiver, (left, top), (310.0, top)], PENUMBRA)
-    sketch.polygon([receiver, (310.0, top), (right, top)], "#fff")
-    sketch.light((left, top), (right, top)).line((120.0, plate), (310.0, plate), width=7)
-    sketch.line((40.0, 390.0), (580.0, 390.0), width=3).circle(receiver, 6, "#fff", stroke=INK)
+    sketch, receiver, top, plate = Sketch(*_KNOWN_SIZE, ground=LIT), (190.0, 246.0), 56.0, 150.0
+    sketch.polygon([receiver, (40.0, top), (190.0, top)], PENUMBRA)
+    sketch.polygon([receiver, (190.0, top), (340.0, top)], "#fff")
+    sketch.light((40.0, top), (340.0, top)).line((90.0, plate), (190.0, plate), width=6)
+    sketch.line((10.0, 246.0), (370.0, 246.0), width=3).circle(receiver, 6, "#fff", stroke=INK)
     words = (
-        ((310, 40), "disk light, R = h = 1", "middle"), ((110, plate + 8), "plate", "end"),
-        ((310, 428), "receiver", "middle"),
-    )  # fmt: skip
+        ((190, 36), "disk, R = h = 1", "middle"),
+        ((84, plate + 8), "plate", "end"),
+        ((190, 286), "receiver", "middle"),
+    )
     for at, text, anchor in words:
         sketch.text(at, text, anchor=anchor)
-    sketch.text((215, 150), "V = 0", anchor="middle", ink="#fff").text((405, 150), "V = 1", anchor="middle")
+    sketch.text((134, 100), "V = 0", anchor="middle", ink="#fff").text((246, 100), "V = 1", anchor="middle")
     return sketch.done("From the side: a plate hides half of a disk light from a receiver.")
 
 
 def _bars(found: Mapping[str, Quantity]) -> Drawing:
-    sketch, scale, height = Sketch(620, 440, ground=LIT), 590.0, 34.0
+    sketch, scale, height = Sketch(*_KNOWN_SIZE, ground=LIT), 420.0, 22.0
     for n, (name, words) in enumerate(_KNOWN.items()):
-        of, y = found[f"half-{name}"], 46.0 + 86 * n
-        sketch.polygon(
-            [(14, y), (14 + scale * of.value, y), (14 + scale * of.value, y + height), (14, y + height)],
-            PENUMBRA,
-        )
-        edge = 14 + scale * KNOWN[name]
-        sketch.line((edge, y - 5), (edge, y + height + 5), width=4)
-        sketch.text((14, y - 10), f"{words}: {of:1} / {KNOWN[name]:.3f}")
+        of, y = found[f"half-{name}"], 40.0 + 70 * n
+        end, edge = 10 + scale * of.value, 10 + scale * KNOWN[name]
+        sketch.polygon([(10, y), (end, y), (end, y + height), (10, y + height)], PENUMBRA)
+        sketch.line((edge, y - 4), (edge, y + height + 4), width=4)
+        sketch.text((10, y - 10), f"{words} {of.value:.3f} / {KNOWN[name]:.3f}")
     said = ", ".join(f"{words} {found[f'half-{name}']}" for name, words in _KNOWN.items())
     return sketch.done(f"Parts of the variance, measured: {said}.")

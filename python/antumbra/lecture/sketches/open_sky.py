@@ -54,4 +54,4 @@ def identity_panel(run: Run, found: Mapping[str, Quantity]) -> Panel:
         "L = 1; the sky's own pixels are left out. The picture has even directions and random numbers of its own, so "
         f"this is noise: by the same rays as AO the difference is {written(found['identical'].value, 1)} at most."
     )
-    return Panel("identity", "albedo × L × AO", [Row(pictures, note)])
+    return Panel("identity", "identity", [Row(pictures, note)])

@@ -100,7 +100,7 @@ def bias_and_noise(found: Mapping[str, Quantity]) -> Table:
     kept = {key_of(100): "100 × 1", "centre100": "1 × 100", least: f"1 × {RAYS - 1}"}
     noises = [found[f"noise-{key}-{where}"] for key in kept for where in CROPS]
     sure = max(noise.error / noise.value for noise in noises)
-    note = f"In % of white; noise within {100 * sure:.0f} % of itself. 1 × N goes through the centre. Rays: 200, 101, 200."
+    note = f"In % of white; noise within {100 * sure:.0f} % of itself. 1 × N: through the centre. Rays: 200, 101, 200."
 
     def row(key: str, less: float = 1.0) -> list[Quantity | str]:
         cells = ((found[f"bias-{key}-{where}"], found[f"noise-{key}-{where}"]) for where in CROPS)
