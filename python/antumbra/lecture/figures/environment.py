@@ -40,8 +40,8 @@ def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
     unlit = run.scene(under_skies).render(size=(1, 1), environment="none", estimator="path", bounces=0)
     table = table_of(
         ("sky", "BRDF", "map", "MIS", "gold: BRDF", "map", "MIS"), rows, "Noise of 16 directions over the mean, all and the gold ball alone",
-        note="Standard deviation over the mean, 16 directions a pixel, MIS 8 and 8; without background and mirror. One scene under all skies: "
-        f"hash {unlit.metadata['antumbra.scene-hash']}.",
+        note="Standard deviation over the mean, 16 directions a pixel, MIS 8 and 8; without background and mirror. One scene under all skies, "
+        f"hash {unlit.metadata['antumbra.scene-hash']}: {found['moved']:v} pixels show another surface.",
     )
     return [tabs, table]
 # fmt: on

@@ -63,8 +63,8 @@ def noises(run: Run) -> dict[str, Quantity]:
 
     `insured`: the noise of MIS over that of the better of the others, where it is worst; `gilded`: that of the map
     over that of the BRDF on the gold ball under the painted sky; `same`: mean light by the BRDF over that by both, in
-    the studio. A BRDF direction hardly ever meets a sun, so that what its
-    pictures show of their noise is too little: there the map is the better one.
+    the studio. A BRDF direction hardly ever meets a sun, so that what its pictures show of their noise is too little:
+    there the map is the better one.
     """
     found = {
         f"{way}-{sky}-{part}": noise(run, sky, way, part) for sky in SKIES for way in WAYS for part in PARTS
