@@ -93,5 +93,6 @@ def _curves(run: Run) -> str:
     curves = [measured(WAYS[way].name, COUNTS, errors.squares[way] / unit) for way in _DRAWN]
     return error_curves(
         curves, x_title="samples of a pixel", y_title="RMSE, of 4 directions 1", chosen=WAYS[BEST].name,
-        x_ticks=COUNTS, y_ticks=[1, 0.1, 0.01], label="RMSE against the number of samples: each light asked with owen points is best.",
+        x_ticks=COUNTS, y_ticks=[1, 0.1, 0.01],
+        label="RMSE against the number of samples: each light asked with owen points is best.",
     )  # fmt: skip
