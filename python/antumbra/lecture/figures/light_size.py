@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 from antumbra.lecture.chapters import SUM
 from antumbra.lecture.figure import Claim, Equation, Figure, Number, Pick, Question, Variant
@@ -35,7 +36,7 @@ def _frame(run: Run, found: Mapping[str, Quantity], size: float, white: float) -
     says = f"edge {size:g} m: lit pixels {found[f'lit-{size:g}']:1}, penumbra {found[f'penumbra-{size:g}']:1}"
     pictures = [
         run.picture(run.image(f"one-{size}").pixels, f"One shadow ray a pixel, light of {says}.", name=f"one-{size}", white=white, noise=True),
-        run.picture(f"truth-{size}", f"The same without noise, edge of the light {size:g} m.", white=white),
+        run.picture(f"truth-{size}", f"The same without noise, edge of the light {size:g} m.", white=white, noise=True),
         run.map(noise / white, f"Noise of one ray: {says}.", name=f"noise-{size}", ramp="amber", high=0.5, unit="of white", noise=True),
     ]  # fmt: skip
     return Frame(f"{size:g}", says, pictures, short=f"{size:g} m")
@@ -48,6 +49,7 @@ def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
     curves = [
         measured(name, SIZES, each, fit=[name == "lit" and s <= 1 for s in SIZES]) for name, each in _squares(run).items()
     ]  # fmt: skip
+    curves[0] = replace(curves[0], note=f"slope {found['lit']}")
     svg = error_curves(
         curves, x_title="edge of the light [m], same power", y_title="noise of one ray, unshadowed = 1",
         chosen="penumbra", x_ticks=[0.25, 0.5, 1, 2, 4], y_ticks=[1, 1 / 3, 1 / 10, 1 / 30, 1 / 100],
