@@ -51,7 +51,7 @@ def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
 
 
 FIGURE = Figure(
-    number=19, chapter=5, title="After the first bounce", seconds=Pick(6, 90),
+    number=19, chapter=5, title="After the first bounce", seconds=Pick(6, 120),
     question=Question("Direct light is reflected once. How much of all the light that the walls of this box reflect to the eye is direct?",
                       ("about a quarter", "about a half", "nearly all"), 1, ("share-1",)),
     variants=[
