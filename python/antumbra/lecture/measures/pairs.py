@@ -21,7 +21,7 @@ ONE = COARSE | {
     "estimator": "area", "light_points": "area", "filter": "box", "viewing_rays": 4 * SET, "shadow_rays": 1,
 }  # fmt: skip
 # How pixel and light point are drawn, and what theory says of the 16 pairs of quarters: of 16 tries each with 1/16, or
-# of four rounds in which each quarter of the pixel meets one of the light at random.
+# of four rounds in which each quarter of the pixel meets one of the light at random (by hashes: 10.8).
 WAYS: dict[str, dict[str, str]] = {
     "random": {"sampler": "random"}, "two": {"sampler": "owen", "pairing": "2d"}, "one": {"sampler": "owen"},
 }  # fmt: skip
