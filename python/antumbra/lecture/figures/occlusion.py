@@ -59,7 +59,7 @@ def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
         [errors.curve(s, FITTED) for s in SAMPLERS], x_title="directions per point, N", y_title="RMSE, one random one is 1", chosen="random",
         x_ticks=COUNTS, y_ticks=[1, 1 / 3, 1 / 10, 1 / 30, 1 / 100], label="RMSE against the number of directions for four samplers.",
     )  # fmt: skip
-    rows = {str(n): [errors.relative(s, n) for s in SAMPLERS] for n in SHOWN}
+    rows = {str(n): [errors.relative(s, n) for s in SAMPLERS] for n in COUNTS}
     table = table_of(("N", *SAMPLERS), rows, "RMSE against the number of directions, one random one is 100 %", bare=True)
     note = f"Bars and band: 95 %, {len(run.images('owen-1'))} replicates. Regular directions are the same everywhere: bands, not noise."
     return [tabs, Plot(svg, note, table)]

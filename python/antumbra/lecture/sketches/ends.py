@@ -61,7 +61,7 @@ def _frame(run: Run, ends: Mapping[str, End], names: Sequence[str], light: float
     errors = rmse(list(ends.values()), work, light)
 
     def shown(way: str, name: str, error: float) -> Picture:
-        alt = f"{name}: RMSE {error:.1%} of the mean light with {work:,} rays a pixel."
+        alt = f"{name}: RMSE {100 * error:.1f} % of the mean light with {work:,} rays a pixel."
         values = np.log10(np.maximum(ends[way].error(work) / light, 1e-9))
         return run.map(
             values, alt, name=f"error-{way}-{work}", ramp="amber", low=-2.5, high=0.0, unit="RMSE", ticks=_TICKS,

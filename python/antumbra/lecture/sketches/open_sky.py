@@ -18,8 +18,8 @@ def sky_panel(run: Run) -> Panel:
     """A slider of the receiver's depth in the box."""
     frames = []
     for z, seen in all_seen(run).items():
-        shares = [f"{share:.0%}" for share in seen.shares]
-        says = f"z = {z}: {shares[0]} and {shares[1]} of the directions, {seen.open:.1%} of the disk"
+        shares = [f"{100 * share:.0f} %" for share in seen.shares]
+        says = f"z = {z}: {shares[0]} and {shares[1]} of the directions, {100 * seen.open:.1f} % of the disk"
         pictures = []
         for name, shown, share in zip(("random", "spread"), (seen.random, seen.cells), shares, strict=True):
             alt = f"The sky from z = {z}: {share} of {CELLS**2} {name} directions find it."
