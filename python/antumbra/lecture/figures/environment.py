@@ -35,12 +35,13 @@ def _measure(run: Run) -> Mapping[str, Quantity]:
 def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
     panels = [Panel(sky, sky, [under(run, found, sky)]) for sky in SKIES]
     tabs = Tabs("sky", "Sky", [*panels, Panel("turned", "turned", [turned(run)]), Panel("lamp", "as a lamp", [spheres(run, RADII)])])
-    rows = {sky: ["sun missed" if sky in SUNS and way == "brdf" else found[f"{way}-{sky}-{part}"] for part in PARTS for way in WAYS]
+    rows = {sky: ["no sun" if sky in SUNS and way == "brdf" else found[f"{way}-{sky}-{part}"] for part in PARTS for way in WAYS]
             for sky in SKIES}
     unlit = run.scene(under_skies).render(size=(1, 1), environment="none", estimator="path", bounces=0)
     table = table_of(
-        ("sky", "BRDF", "map", "MIS", "gold: BRDF", "map", "MIS"), rows, "Noise of 16 directions over the mean, all and the gold ball alone",
-        note="Standard deviation over the mean, 16 directions a pixel, MIS 8 and 8; without background and mirror. One scene under all skies, "
+        ("sky", "BRDF", "map", "MIS", "gold: BRDF", "map", "MIS"), rows, "Noise of 16 directions over the mean [%], all and the gold ball alone", bare=True,
+        note="Standard deviation over the mean [%]: BRDF, map, MIS, then on the gold ball alone; 16 directions a pixel, MIS 8 and 8. No sun: a direction "
+        "hardly ever meets it. One scene under all skies, "
         f"hash {unlit.metadata['antumbra.scene-hash']}: {found['moved']:v} pixels show another surface.",
     )
     return [tabs, table]

@@ -50,7 +50,7 @@ def plot(run: Run, found: Mapping[str, Quantity]) -> str:
             Curve(_NAMES[way], counts, y, low, high, note="hollow: forecast" if beyond else "", hollow=hollow)
         )
     return error_curves(
-        curves, x_title="lamps", y_title="time of a pixel for a noise of 10 % [µs]", chosen=_NAMES["contribution"],
+        curves, x_title="lamps", y_title="time of a pixel for a noise of 10 % [µs]", chosen=_NAMES["uniform"],
         label="Time for a noise of 10 % against the number of lamps: drawn by contribution they cost least.",
     )  # fmt: skip
 

@@ -90,9 +90,9 @@ def _curves(run: Run) -> str:
     """RMSE against the number of samples."""
     errors = compared(run)
     unit = float(errors.squares[FIRST][:, 0].mean())
-    curves = [measured(WAYS[way].name, COUNTS, errors.squares[way] / unit) for way in _DRAWN]
+    curves = [measured(WAYS[way].name, COUNTS, 1e4 * errors.squares[way] / unit) for way in _DRAWN]
     return error_curves(
-        curves, x_title="samples of a pixel", y_title="RMSE, of 4 directions 1", chosen=WAYS[BEST].name,
-        x_ticks=COUNTS, y_ticks=[1, 0.1, 0.01],
+        curves, x_title="samples of a pixel", y_title="RMSE, of 4 directions 100", chosen=WAYS[BEST].name,
+        x_ticks=COUNTS, y_ticks=[100, 10, 1],
         label="RMSE against the number of samples: each light asked with owen points is best.",
     )  # fmt: skip
