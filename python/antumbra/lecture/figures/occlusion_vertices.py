@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from antumbra.lecture.figure import Claim, Equation, Figure, Number, Pick, Question
-from antumbra.lecture.measures.vertices import CELLS, PLACES, errors_of_meshes
+from antumbra.lecture.measures.vertices import PLACES, cells_of, errors_of_meshes
 from antumbra.lecture.quantity import Quantity
 from antumbra.lecture.run import Run
 from antumbra.lecture.sketches.vertices import finer, plot
@@ -17,10 +17,11 @@ SHOWN = [1, 2, 3, 4, 5, 6, 8, 10, 12, 16, 24, 32]
 
 # fmt: off
 def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
-    rows = {str(n): [found[f"{name}-{n}"] if n in cells else "" for name, cells in CELLS.items()] for n in sorted({n for cells in CELLS.values() for n in cells})}
+    cells = cells_of(run)
+    rows = {str(n): [found[f"{name}-{n}"] if n in of else "" for name, of in cells.items()] for n in sorted({n for of in cells.values() for n in of})}
     table = table_of(("n", "empty box", "with body", "mesh cut"), rows, "RMS error of the openness on the floor", bare=True)
     note = f"Bars: 95 %; {run.pick(PLACES)} places of the body, for the empty box 4 sets of vertices. Lines: predicted."
-    return [finer(run, SHOWN), Plot(plot(found), note, table)]
+    return [finer(run, SHOWN), Plot(plot(run, found), note, table)]
 # fmt: on
 
 

@@ -22,13 +22,17 @@ from antumbra.study import statistics
 Floats = NDArray[np.float64]
 
 # Cells along the edge of the box, empty, with the body, and with the mesh cut along its edges.
-SMOOTH_CELLS, BODY_CELLS, CUT_CELLS = [1, 2, 4, 8], [4, 8, 16, 32], [4, 8, 16]
-CELLS = {"empty": SMOOTH_CELLS, "body": BODY_CELLS, "along": CUT_CELLS}
+SMOOTH_CELLS, BODY_CELLS, CUT_CELLS = [1, 2, 4, 8], [4, 8, 16, 32], Pick([4, 8], [4, 8, 16])
 # RMS errors of 2 × 2 and 3 × 3 vertices on the floor of a cube (quadrature of the closed form).
 CUBE = {1: 0.06542137235235, 2: 0.01603618598543}
 # Places of the body, rays of a vertex and of a point, points along the edge of the floor.
 PLACES, _RAYS, _SIDE = Pick(16, 32), Pick(64, 256), Pick(32, 64)
 _SURE = Pick(1 << 12, 1 << 16)
+
+
+def cells_of(run: Run) -> dict[str, list[int]]:
+    """The numbers of cells for which each kind of mesh is measured, by the names of its quantities."""
+    return {"empty": SMOOTH_CELLS, "body": BODY_CELLS, "along": run.pick(CUT_CELLS)}
 
 
 def baked(scene: Scene, patch: Patch, cells: int, rays: int, seed: int) -> Floats:
@@ -130,16 +134,16 @@ class _Body:
 
 
 def _with_body(run: Run) -> dict[str, Quantity]:
-    places = run.pick(PLACES)
+    places, cut = run.pick(PLACES), run.pick(CUT_CELLS)
     squares: dict[str, list[list[float]]] = {"body": [], "along": []}
     predicted = []
     for k in range(places):
         run.at(k / places, "a body on the floor")
         one = _Body(run, k)
         squares["body"].append([one.square([FLOOR], n) for n in BODY_CELLS])
-        squares["along"].append([one.square(around(*one.place), n) for n in CUT_CELLS])
+        squares["along"].append([one.square(around(*one.place), n) for n in cut])
         predicted.append(one.predicted())
-    found = _roots("body", BODY_CELLS, squares) | _roots("along", CUT_CELLS, squares)
+    found = _roots("body", BODY_CELLS, squares) | _roots("along", cut, squares)
     low, high = (2**end for end in found["body"].interval)
     halved = of_interval(statistics.Interval(2 ** found["body"].value, low, high))
     # All but the coarsest mesh, whose cells are as wide as the body: squared error times cells is the same for each.
