@@ -126,6 +126,7 @@ def same_scene(run: Run) -> dict[str, Quantity]:
 
 
 def of_sphere(run: Run, radii: float) -> Quantity:
-    """Mean light in a sphere of light over that under the environment, less 1; both with the same directions."""
-    sphere, sky = (luminances(run, key).mean((1, 2)) for key in (f"sphere-{radii:g}", "sphere-none"))
+    """Mean light of the things in a sphere of light over that under the environment, less 1; by the same directions."""
+    mask = _mask(run, "all")
+    sphere, sky = (luminances(run, f"sphere-{which}")[:, mask].mean(1) for which in (f"{radii:g}", "none"))
     return mean_of(sphere / sky - 1, "%")

@@ -174,7 +174,7 @@ def spheres(run: Run, radii: list[float]) -> Row:
             run.picture(
                 f"sphere-{r:g}",
                 f"A sphere of light, {words}: {off:1} off in the mean.",
-                f"{words}, {off:v} off",
+                f"{words}: {off:1}",
                 white=white,
                 colour=True,
             )
