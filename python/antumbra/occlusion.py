@@ -25,6 +25,8 @@ class OcclusionWork(NamedTuple):
     """Pairs of a point and a triangle that were looked at."""
     in_range: int
     """Those of them in which the triangle may be met: within the radius, above the horizon."""
+    between: int
+    """Those of them whose triangle is so small that it lies between the directions."""
     tested: int
     """Directions of such pairs that the table of half-spaces left open."""
     law: int

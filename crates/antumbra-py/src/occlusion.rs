@@ -15,12 +15,12 @@ use crate::scene::PyScene;
 use crate::watch::watched;
 
 /// masks, directions, lengths, frames, work.
-type Masks<'py> = (Bound<'py, PyArray2<u64>>, Table<'py>, Column<'py>, Bound<'py, PyArray3<f32>>, [u64; 6]);
+type Masks<'py> = (Bound<'py, PyArray2<u64>>, Table<'py>, Column<'py>, Bound<'py, PyArray3<f32>>, [u64; 7]);
 
 #[pymethods]
 impl PyScene {
     /// Bits of blocked directions, (N, D/64) uint64; directions (D, 3) and lengths (D,) float32 in the frames (N, 3, 3);
-    /// boxes, pairs, pairs in range, directions tested, put to the law, rays.
+    /// boxes, pairs, pairs in range, between directions, directions tested, put to the law, rays.
     #[allow(clippy::too_many_arguments, reason = "the arguments of the Python method")]
     fn occlusion_masks<'py>(
         &self,
@@ -58,7 +58,7 @@ impl PyScene {
             table(py, &local)?,
             lengths.into_pyarray(py),
             Array3::from_shape_vec((n, 3, 3), frames).map_err(shape)?.into_pyarray(py),
-            [work.boxes, work.pairs, work.in_range, work.tested, work.law, work.rays],
+            [work.boxes, work.pairs, work.in_range, work.between, work.tested, work.law, work.rays],
         ))
     }
 }

@@ -65,7 +65,7 @@ NEUTRAL = {
     "shadows": "1.0", "regions": "0.5", "eclipse": "356500", "product": "0.1", "between": "0.5",
     "self-intersection": "safe", "solid-angle": "-3", "formulations": "0.1", "area-light": "0", "light-size": "0.25",
     "direct-indirect": {"0", "10"}, "occlusion": {"10", "20"}, "environment": "0", "budget": "100x1",
-    "occlusion-vertices": "1", "many-lights": "1", "summary": "even",
+    "occlusion-vertices": "1", "many-lights": "1", "summary": "even", "fast-occlusion": "0",
 }  # fmt: skip
 
 

@@ -3,10 +3,12 @@
 
 use fearless_simd::{Simd, f32x16, prelude::*};
 
-use super::pairs::{Near, Planes};
-use super::{BITS, Block, Directions, OcclusionWork, Receiver};
+use super::mixed::Picked;
+use super::pairs::{Lanes, Near, Planes, near};
+use super::{BITS, Block, Directions, MOST_BLOCKS, OcclusionWork, Receiver};
 use crate::law::{self, Line};
-use crate::traverse::{Masks, PACKET, Seen, Sixteen, TriangleTree, U};
+use crate::layout::{TriangleBlock, WIDTH};
+use crate::traverse::{Masks, PACKET, Sixteen, TriangleTree, U};
 
 /// Everything that triangles are put to.
 pub(super) struct Judge<'a, M> {
@@ -16,118 +18,184 @@ pub(super) struct Judge<'a, M> {
     pub work: OcclusionWork,
 }
 
-/// A pair of a receiver and a triangle.
-#[derive(Clone, Copy)]
-pub(super) struct Pair<'a> {
-    pub at: &'a Receiver,
-    /// Leaf block and lane in it.
+/// Eight pairs of a receiver and a triangle.
+pub(super) struct Eight<'a> {
+    pub receivers: &'a [Receiver],
+    /// Number of each lane's receiver, and of its row of masks.
+    pub member: [u32; WIDTH],
+    /// Leaf block of the triangles, and each one's lane there.
     pub leaf: usize,
-    pub slot: usize,
+    pub slot: [u8; WIDTH],
 }
 
-/// Directions that wait for the filter.
-struct Picked {
-    of: [u32; PACKET],
-    len: usize,
+/// The same ready to be decided.
+struct Ready<'a, S: Simd> {
+    of: &'a Eight<'a>,
+    at: &'a Lanes<S>,
+    near: Near,
+    planes: Planes,
 }
+
+/// With more open directions than these a triangle is put to the filter alone.
+const MANY: u32 = 8;
 
 impl<M: Masks> Judge<'_, M> {
-    /// Adds to `blocked` the directions in which the triangle of `pair`, seen as `lane` of `planes`, blocks.
+    /// Adds to `rows` the directions in which the triangles of `block` block, for the lanes `there`.
     #[inline(always)]
-    pub fn pair<S: Simd>(
+    pub fn eight<S: Simd>(
         &mut self,
         simd: S,
-        pair: &Pair<'_>,
-        (near, planes, lane): (&Near, &Planes, usize),
-        blocked: &mut [Block],
+        of: &Eight<'_>,
+        (at, block, there): (&Lanes<S>, &TriangleBlock, u32),
+        rows: &mut [Block],
     ) {
-        let of = self.directions;
-        if self.of.tree.leaves[pair.leaf][pair.slot] == pair.at.first {
+        self.work.pairs += u64::from(there.count_ones());
+        let near = near(simd, self.directions, at, block, there);
+        if near.active == 0 {
             return;
         }
-        let perhaps = of.levels.perhaps(near.near2[lane]);
-        let mut picked = Picked { of: [0; PACKET], len: 0 };
+        self.work.in_range += u64::from(near.active.count_ones());
+        let mut active = self.directions.bins.some(simd, at, block, near.active);
+        self.work.between += u64::from((near.active ^ active).count_ones());
+        if active == 0 {
+            return;
+        }
+        let ready = Ready { of, at, near, planes: Planes::of(simd, at, block) };
+        let mut picked = Picked::NONE;
+        while active != 0 {
+            let lane = active.trailing_zeros() as usize % WIDTH;
+            active &= active - 1;
+            self.lane(simd, &ready, lane, &mut picked, rows);
+        }
+        self.mixed(simd, &ready, &mut picked, rows);
+    }
+
+    /// One of them: what the table says, and what it leaves open.
+    #[inline(always)]
+    fn lane<S: Simd>(
+        &mut self,
+        simd: S,
+        ready: &Ready<'_, S>,
+        lane: usize,
+        picked: &mut Picked,
+        rows: &mut [Block],
+    ) {
+        let (of, pair, planes) = (self.directions, ready.of, &ready.planes);
+        let (slot, member) = (pair.slot[lane] as usize % WIDTH, pair.member[lane] as usize);
+        if self.of.tree.leaves[pair.leaf][slot] == pair.receivers[member].first {
+            return;
+        }
+        let row = &mut rows[member * of.blocks()..][..of.blocks()];
         // A mask is asked of every hit; on the plane itself no side is known.
-        let masked = M::ASK && self.of.masked.get(pair.leaf).is_some_and(|m| m >> pair.slot & 1 == 1);
-        if masked || (planes.sides[0] | planes.sides[1]) >> lane & 1 == 0 {
-            for block in 0..blocked.len() {
-                let open = and(perhaps[block], blocked[block].map(|w| !w));
-                self.pick(simd, pair, (&planes.seen, lane, masked), (block, open), &mut picked, blocked);
+        let masked = M::ASK && self.of.masked.get(pair.leaf).is_some_and(|m| m >> slot & 1 == 1);
+        let known = !masked && (planes.sides[0] | planes.sides[1]) >> lane & 1 == 1;
+        let perhaps = of.levels.perhaps(ready.near.near2[lane]);
+        let mut open = [[0; 4]; MOST_BLOCKS];
+        let mut count = 0;
+        if known {
+            let surely = of.levels.surely(ready.near.far2[lane]);
+            let [a, b, c] = [planes.plane(0, lane), planes.plane(1, lane), planes.plane(2, lane)];
+            let [a, b, c] = [of.table.get(a.0, a.1), of.table.get(b.0, b.1), of.table.get(c.0, c.1)];
+            for (k, blocked) in row.iter_mut().enumerate() {
+                let may =
+                    and(and(perhaps[k], not(*blocked)), and(a.perhaps(k), and(b.perhaps(k), c.perhaps(k))));
+                let hit = and(and(surely[k], may), and(a.surely(k), and(b.surely(k), c.surely(k))));
+                *blocked = or(*blocked, hit);
+                open[k % MOST_BLOCKS] = and(may, not(hit));
+                count += ones(open[k % MOST_BLOCKS]);
             }
         } else {
-            let halves = [0, 1, 2].map(|i| {
-                let (cell, opposite) = planes.plane(i, lane);
-                of.table.get(cell, opposite)
-            });
-            let surely = of.levels.surely(near.far2[lane]);
-            for block in 0..blocked.len() {
-                let [a, b, c] = halves.each_ref().map(|h| h.perhaps(block));
-                let open = and(and(perhaps[block], blocked[block].map(|w| !w)), and(a, and(b, c)));
-                if open == [0; 4] {
-                    continue;
-                }
-                let [a, b, c] = halves.each_ref().map(|h| h.surely(block));
-                let hit = and(and(surely[block], open), and(a, and(b, c)));
-                blocked[block] = or(blocked[block], hit);
-                let open = and(open, hit.map(|w| !w));
-                self.pick(simd, pair, (&planes.seen, lane, false), (block, open), &mut picked, blocked);
+            for (k, blocked) in row.iter().enumerate() {
+                open[k % MOST_BLOCKS] = and(perhaps[k], not(*blocked));
+                count += ones(open[k % MOST_BLOCKS]);
             }
         }
-        self.test(simd, pair, (&planes.seen, lane, masked), &picked, blocked);
-    }
-
-    /// Puts the directions `open` to the filter as soon as there are enough of them.
-    #[inline(always)]
-    fn pick<S: Simd>(
-        &mut self,
-        simd: S,
-        pair: &Pair<'_>,
-        seen: (&Seen, usize, bool),
-        (block, open): (usize, Block),
-        picked: &mut Picked,
-        blocked: &mut [Block],
-    ) {
-        for (w, mut word) in open.into_iter().enumerate() {
-            while word != 0 {
-                picked.of[picked.len % PACKET] = (block * BITS + w * 64) as u32 + word.trailing_zeros();
-                picked.len += 1;
-                word &= word - 1;
-                if picked.len == PACKET {
-                    self.test(simd, pair, seen, picked, blocked);
-                    picked.len = 0;
-                }
-            }
-        }
-    }
-
-    /// Decides the directions that were picked.
-    #[inline(always)]
-    fn test<S: Simd>(
-        &mut self,
-        simd: S,
-        pair: &Pair<'_>,
-        (seen, lane, masked): (&Seen, usize, bool),
-        picked: &Picked,
-        blocked: &mut [Block],
-    ) {
-        if picked.len == 0 {
+        if count == 0 {
             return;
         }
-        let lines = self.lines(simd, pair.at, picked);
-        let met = lines.test::<false>(simd, seen, lane, (1 << picked.len) - 1);
-        self.work.tested += picked.len as u64;
-        let mut set = |i: u32| blocked[i as usize / BITS][i as usize % BITS / 64] |= 1 << (i % 64);
-        let (mut certain, mut open) = if masked { (0, met.hit | met.open) } else { (met.hit, met.open) };
-        while certain != 0 {
-            set(picked.of[certain.trailing_zeros() as usize % PACKET]);
-            certain &= certain - 1;
+        self.work.tested += u64::from(count);
+        if masked || count > MANY {
+            let mut own = Picked::NONE;
+            each(
+                &open[..of.blocks()],
+                #[inline(always)]
+                |i| {
+                    own.add(i, lane);
+                    if own.len == PACKET {
+                        self.alone(simd, ready, (lane, masked), &mut own, rows);
+                    }
+                },
+            );
+            self.alone(simd, ready, (lane, masked), &mut own, rows);
+        } else {
+            each(
+                &open[..of.blocks()],
+                #[inline(always)]
+                |i| {
+                    picked.add(i, lane);
+                    if picked.len == PACKET {
+                        self.mixed(simd, ready, picked, rows);
+                    }
+                },
+            );
+        }
+    }
+
+    /// Decides directions that were picked for several triangles.
+    #[inline(always)]
+    fn mixed<S: Simd>(&mut self, simd: S, ready: &Ready<'_, S>, picked: &mut Picked, rows: &mut [Block]) {
+        if picked.len > 0 {
+            let met = picked.test(simd, self.directions, ready.at, &ready.planes.seen);
+            self.set(ready.of, (met.hit, met.open), false, picked, rows);
+            picked.len = 0;
+        }
+    }
+
+    /// Decides directions that were picked for one triangle.
+    #[inline(always)]
+    fn alone<S: Simd>(
+        &mut self,
+        simd: S,
+        ready: &Ready<'_, S>,
+        (lane, masked): (usize, bool),
+        picked: &mut Picked,
+        rows: &mut [Block],
+    ) {
+        if picked.len > 0 {
+            let at = &ready.of.receivers[ready.of.member[lane] as usize];
+            let lines = self.lines(simd, at, picked);
+            let met = lines.test::<false>(simd, &ready.planes.seen, lane, (1 << picked.len) - 1);
+            let found = if masked { (0, met.hit | met.open) } else { (met.hit, met.open) };
+            self.set(ready.of, found, masked, picked, rows);
+            picked.len = 0;
+        }
+    }
+
+    /// Sets what is hit; asks the law of what is open.
+    #[inline(always)]
+    fn set(
+        &mut self,
+        of: &Eight<'_>,
+        (mut hit, mut open): (u32, u32),
+        masked: bool,
+        picked: &Picked,
+        rows: &mut [Block],
+    ) {
+        let blocks = self.directions.blocks();
+        let mut set = |k: usize| {
+            let (i, lane) = (picked.direction[k] as usize, picked.lane[k] as usize % WIDTH);
+            rows[of.member[lane] as usize * blocks + i / BITS][i % BITS / 64] |= 1 << (i % 64);
+        };
+        while hit != 0 {
+            set(hit.trailing_zeros() as usize % PACKET);
+            hit &= hit - 1;
         }
         while open != 0 {
-            let i = picked.of[open.trailing_zeros() as usize % PACKET];
+            let k = open.trailing_zeros() as usize % PACKET;
             open &= open - 1;
             self.work.law += 1;
-            if self.law(pair, i as usize, masked) {
-                set(i);
+            if self.law(of, picked.lane[k] as usize % WIDTH, picked.direction[k] as usize, masked) {
+                set(k);
             }
         }
     }
@@ -136,34 +204,53 @@ impl<M: Masks> Judge<'_, M> {
     #[inline(always)]
     fn lines<S: Simd>(&self, simd: S, at: &Receiver, picked: &Picked) -> Sixteen<S> {
         let of = self.directions;
-        let row = |values: &[f32]| {
-            let mut out = [0.0; PACKET];
-            for (out, i) in out.iter_mut().zip(&picked.of) {
-                *out = values[*i as usize];
-            }
-            f32x16::load_array(simd, out)
-        };
-        let [x, y, z] = [row(&of.local[0]), row(&of.local[1]), row(&of.local[2])];
+        let x = picked.directions(simd, &of.local[0]);
+        let y = picked.directions(simd, &of.local[1]);
+        let z = picked.directions(simd, &of.local[2]);
         let [s, t, n] = at.frame();
-        let along = |k: usize| (x * s[k] + y * t[k]) + z * n[k];
-        let d = [along(0), along(1), along(2)];
+        let d0 = (x * s[0] + y * t[0]) + z * n[0];
+        let d1 = (x * s[1] + y * t[1]) + z * n[1];
+        let d2 = (x * s[2] + y * t[2]) + z * n[2];
         let zero = f32x16::splat(simd, 0.0);
-        let bound = (d[0].abs() + d[1].abs() + d[2].abs()) * (1.00001 * 40.0 * U);
-        Sixteen { d, q: [zero; 3], m: [zero; 3], bound, tmax: row(&of.reach) }
+        let bound = (d0.abs() + d1.abs() + d2.abs()) * (1.00001 * 40.0 * U);
+        let tmax = picked.directions(simd, &of.reach);
+        Sixteen { d: [d0, d1, d2], q: [zero; 3], m: [zero; 3], bound, tmax }
     }
 
     /// The law, and the mask of a masked triangle.
     #[inline(never)]
-    fn law(&self, pair: &Pair<'_>, i: usize, masked: bool) -> bool {
-        let (at, of) = (pair.at, self.directions);
-        let line = Line::ray(at.start, at.direction(of, i), of.reach(i));
-        let corners = self.of.blocks[pair.leaf].triangle(pair.slot);
+    fn law(&self, of: &Eight<'_>, lane: usize, i: usize, masked: bool) -> bool {
+        let (at, slot) = (&of.receivers[of.member[lane] as usize], of.slot[lane] as usize % WIDTH);
+        let line = Line::ray(at.start, at.direction(self.directions, i), self.directions.reach(i));
+        let corners = self.of.blocks[of.leaf].triangle(slot);
         law::blocks(&line, corners)
             && !(masked && {
-                let (id, uv) = (self.of.tree.leaves[pair.leaf][pair.slot], law::barycentrics(&line, corners));
+                let (id, uv) = (self.of.tree.leaves[of.leaf][slot], law::barycentrics(&line, corners));
                 self.masks.passes(at.number.wrapping_add(i as u32), id, uv)
             })
     }
+}
+
+/// Calls `of` with the number of every direction of a mask.
+#[inline(always)]
+fn each(mask: &[Block], mut of: impl FnMut(u32)) {
+    for (k, word) in mask.as_flattened().iter().enumerate() {
+        let mut word = *word;
+        while word != 0 {
+            of((k * 64) as u32 + word.trailing_zeros());
+            word &= word - 1;
+        }
+    }
+}
+
+#[inline(always)]
+fn not(a: Block) -> Block {
+    [!a[0], !a[1], !a[2], !a[3]]
+}
+
+#[inline(always)]
+fn ones(a: Block) -> u32 {
+    a[0].count_ones() + a[1].count_ones() + a[2].count_ones() + a[3].count_ones()
 }
 
 #[inline(always)]

@@ -3,6 +3,7 @@
 
 use antumbra_math::real;
 
+use super::bins::Bins;
 use super::levels::Levels;
 use super::table::HalfSpaces;
 use super::{BITS, Block};
@@ -34,6 +35,7 @@ pub struct Directions {
     pub(super) reach: Vec<f32>,
     pub(super) levels: Levels,
     pub(super) table: HalfSpaces,
+    pub(super) bins: Bins,
     /// Below the cosine of every direction to its normal by 2⁻¹⁹.
     pub(super) low: f32,
 }
@@ -60,8 +62,8 @@ impl Directions {
             reach.push(l);
         }
         let lowest = local[2].iter().fold(1f32, |m, z| m.min(*z));
-        let table = HalfSpaces::new(&local);
-        Ok(Directions { levels: Levels::new(&reach), table, local, reach, low: lowest - COS_SLACK })
+        let (levels, table, bins) = (Levels::new(&reach), HalfSpaces::new(&local), Bins::new(&local));
+        Ok(Directions { levels, table, bins, local, reach, low: lowest - COS_SLACK })
     }
 
     /// Number of directions.

@@ -5,9 +5,11 @@
 //! directions lie surely on its positive side, and which perhaps; for those between, the filter of packets and the law
 //! decide. So every method gives the bits of `Brute` asked of the same rays (docs/visibility.md §3).
 
+mod bins;
 mod decide;
 mod directions;
 mod levels;
+mod mixed;
 mod occluder_major;
 mod pairs;
 mod receiver_major;
@@ -31,6 +33,9 @@ const BITS: usize = 256;
 /// 256 bits of a mask.
 type Block = [u64; 4];
 
+/// Of 1024 directions.
+const MOST_BLOCKS: usize = 4;
+
 /// How the masks are found: always the same bits.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Method {
@@ -52,6 +57,8 @@ pub struct OcclusionWork {
     pub pairs: u64,
     /// Those of them in which the triangle may be met: in range, above the horizon.
     pub in_range: u64,
+    /// Those of them whose triangle is so small that it lies between the directions.
+    pub between: u64,
     /// Directions of such pairs that the table left open.
     pub tested: u64,
     /// Those of them that went to the law.
@@ -62,10 +69,11 @@ pub struct OcclusionWork {
 
 impl std::ops::AddAssign for OcclusionWork {
     fn add_assign(&mut self, more: OcclusionWork) {
-        let OcclusionWork { boxes, pairs, in_range, tested, law, rays } = more;
+        let OcclusionWork { boxes, pairs, in_range, between, tested, law, rays } = more;
         self.boxes += boxes;
         self.pairs += pairs;
         self.in_range += in_range;
+        self.between += between;
         self.tested += tested;
         self.law += law;
         self.rays += rays;
@@ -157,7 +165,6 @@ impl<M: Masks> Asked<'_, M> {
     fn triangles<S: Simd>(&mut self, simd: S, method: Method, fit: &mut [u32]) {
         let (of, directions) = (&self.world.triangles, self.directions);
         let mut judge = Judge { of, directions, masks: self.masks, work: self.work };
-        let blocks = directions.blocks();
         simd.vectorize(
             #[inline(always)]
             || {
@@ -166,8 +173,7 @@ impl<M: Masks> Asked<'_, M> {
                 }
                 let mut stack = Vec::new();
                 for m in fit {
-                    let row = &mut self.rows[*m as usize * blocks..][..blocks];
-                    receiver_major::walk(simd, &mut judge, &self.receivers[*m as usize], &mut stack, row);
+                    receiver_major::walk(simd, &mut judge, (self.receivers, *m), &mut stack, &mut self.rows);
                 }
             },
         );

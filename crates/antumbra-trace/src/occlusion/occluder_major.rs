@@ -3,8 +3,8 @@
 
 use fearless_simd::Simd;
 
-use super::decide::{Judge, Pair};
-use super::pairs::{Lanes, Planes, near};
+use super::decide::{Eight, Judge};
+use super::pairs::Lanes;
 use super::receiver_major::{lanes_of, push};
 use super::region::Region;
 use super::{Block, Receiver};
@@ -24,10 +24,26 @@ pub(super) fn walk<S: Simd, M: Masks>(
     rows: &mut [Block],
 ) {
     sort(receivers, members);
-    let mut stack = Vec::new();
-    for members in members.chunks(TILE) {
-        Tile::new(simd, judge, receivers, members).walk(simd, judge, &mut stack, rows);
+    let (mut stack, mut left) = (Vec::new(), &*members);
+    let widest = judge.directions.levels.longest.sqrt();
+    while !left.is_empty() {
+        let (tile, rest) = left.split_at(together(receivers, left, widest));
+        Tile::new(simd, judge, receivers, tile).walk(simd, judge, &mut stack, rows);
+        left = rest;
     }
+}
+
+/// How many of the first members make a tile: as long as it is not wider than the longest ray.
+fn together(receivers: &[Receiver], members: &[u32], widest: f32) -> usize {
+    let first = receivers[members[0] as usize].start;
+    let (mut low, mut high) = (first, first);
+    let fits = |m: &&u32| {
+        for (k, x) in receivers[**m as usize].start.into_iter().enumerate() {
+            (low[k], high[k]) = (low[k].min(x), high[k].max(x));
+        }
+        (0..3).all(|k| high[k] - low[k] <= widest)
+    };
+    members.iter().take(TILE).take_while(fits).count().max(1)
 }
 
 /// Receivers side by side.
@@ -102,27 +118,13 @@ impl<'a, S: Simd> Tile<'a, S> {
         block: &TriangleBlock,
         rows: &mut [Block],
     ) {
-        let blocks = judge.directions.blocks();
         for (g, lanes) in self.groups.iter().enumerate() {
             let open = (self.open >> (g * WIDTH)) as u32 & 0xff;
-            if open == 0 {
-                continue;
-            }
-            let found = near(simd, judge.directions, lanes, block, open);
-            judge.work.pairs += u64::from(open.count_ones());
-            judge.work.in_range += u64::from(found.active.count_ones());
-            if found.active == 0 {
-                continue;
-            }
-            let planes = Planes::of(simd, lanes, block);
-            let mut active = found.active;
-            while active != 0 {
-                let lane = active.trailing_zeros() as usize % WIDTH;
-                active &= active - 1;
-                let member = self.members[g * WIDTH + lane] as usize;
-                let pair = Pair { at: &self.receivers[member], leaf, slot };
-                let row = &mut rows[member * blocks..][..blocks];
-                judge.pair(simd, &pair, (&found, &planes, lane), row);
+            if open != 0 {
+                let of = self.members.get(g * WIDTH..).unwrap_or(&[]);
+                let member = std::array::from_fn(|lane| of.get(lane).copied().unwrap_or(0));
+                let eight = Eight { receivers: self.receivers, member, leaf, slot: [slot as u8; WIDTH] };
+                judge.eight(simd, &eight, (lanes, block, open), rows);
             }
         }
     }

@@ -15,9 +15,9 @@ use crate::traverse::{Seen, U, V3};
 /// Up to eight receivers, or one in every lane.
 #[derive(Clone, Copy)]
 pub(super) struct Lanes<S: Simd> {
-    start: V3<S>,
+    pub start: V3<S>,
     /// Two tangents and the normal.
-    frame: [V3<S>; 3],
+    pub frame: [V3<S>; 3],
 }
 
 impl<S: Simd> Lanes<S> {

@@ -2,26 +2,28 @@
 
 use fearless_simd::{Simd, prelude::*};
 
-use super::decide::{Judge, Pair};
-use super::pairs::{Lanes, Planes, near};
+use super::decide::{Eight, Judge};
+use super::pairs::Lanes;
 use super::region::Region;
 use super::{Block, Receiver};
 use crate::NO_PRIM;
 use crate::layout::{Child, LeafIds, Node, WIDTH};
 use crate::traverse::{Masks, V3};
 
-/// Adds to `blocked` what the triangles of the tree block for `at`.
+/// Adds to the row of receiver `m` what the triangles of the tree block for it.
 #[inline(always)]
 pub(super) fn walk<S: Simd, M: Masks>(
     simd: S,
     judge: &mut Judge<'_, M>,
-    at: &Receiver,
+    (receivers, m): (&[Receiver], u32),
     stack: &mut Vec<Child>,
-    blocked: &mut [Block],
+    rows: &mut [Block],
 ) {
-    let of = judge.of;
+    let (of, at) = (judge.of, &receivers[m as usize]);
     let region = Region::of(simd, std::iter::once(at), judge.directions);
     let lanes = Lanes::one(simd, at);
+    let blocks = judge.directions.blocks();
+    let mut eight = Eight { receivers, member: [m; WIDTH], leaf: 0, slot: [0, 1, 2, 3, 4, 5, 6, 7] };
     stack.clear();
     stack.push(Child::node(0));
     while let Some(next) = stack.pop() {
@@ -30,22 +32,10 @@ pub(super) fn walk<S: Simd, M: Masks>(
             judge.work.boxes += WIDTH as u64;
             continue;
         }
-        let (leaf, block) = (next.index(), &of.blocks[next.index()]);
-        let there = lanes_of(&of.tree.leaves[leaf]);
-        let found = near(simd, judge.directions, &lanes, block, there);
-        judge.work.pairs += u64::from(there.count_ones());
-        judge.work.in_range += u64::from(found.active.count_ones());
-        if found.active == 0 {
-            continue;
-        }
-        let planes = Planes::of(simd, &lanes, block);
-        let mut active = found.active;
-        while active != 0 {
-            let lane = active.trailing_zeros() as usize % WIDTH;
-            active &= active - 1;
-            judge.pair(simd, &Pair { at, leaf, slot: lane }, (&found, &planes, lane), blocked);
-        }
-        if *blocked == *judge.directions.all() {
+        eight.leaf = next.index();
+        let there = lanes_of(&of.tree.leaves[eight.leaf]);
+        judge.eight(simd, &eight, (&lanes, &of.blocks[eight.leaf], there), rows);
+        if rows[m as usize * blocks..][..blocks] == *judge.directions.all() {
             return;
         }
     }

@@ -9,7 +9,7 @@ use crate::layout::{TriangleBlock, WIDTH};
 /// 2⁻²⁴, half a unit in the last place of 1.
 pub(crate) const U: f32 = 1.0 / 16_777_216.0;
 /// 2⁻¹²⁰: covers what underflows.
-pub(super) const TINY: f32 = f32::from_bits(7 << 23);
+pub(crate) const TINY: f32 = f32::from_bits(7 << 23);
 
 /// A line made ready for triangles.
 #[derive(Clone, Copy)]

@@ -20,9 +20,9 @@ pub(crate) struct Seen {
     /// e_i; only for origins of their own.
     edge: [[Row8; 3]; 3],
     /// n = e0 × e1.
-    normal: [Row8; 3],
+    pub normal: [Row8; 3],
     /// P + 2⁻¹²⁰, P = |e0| X |e1|.
-    span: [Row8; 3],
+    pub span: [Row8; 3],
     /// A·n, and the bound of V.
     pub volume: [Row8; 2],
     /// What the bound of the edges is, but for 40 u D1: E (L + |q|∞), a fifth more for origins of their own.
@@ -134,7 +134,7 @@ impl<S: Simd> Sixteen<S> {
 
     /// Whether 0 < V/D < tmax holds for certain, or fails for certain; as in the filter of one line.
     #[inline(always)]
-    fn before_end(
+    pub fn before_end(
         &self,
         simd: S,
         (det, bd): (f32x16<S>, f32x16<S>),

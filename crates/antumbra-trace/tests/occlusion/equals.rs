@@ -201,8 +201,9 @@ fn the_table_leaves_few_directions_open() {
     let directions = Directions::new(256, |_| 0.6).unwrap();
     let work = compare("soup", (&[geometry(mesh)], &[flat(0, false)]), &asked, &directions);
     for work in &work[..2] {
-        // 256 for each pair without the table.
+        // 256 for each pair without the table; without the bins no triangle lies between.
         assert!(work.in_range > 1000 && work.tested < 20 * work.in_range, "{work:?}");
+        assert!(work.between > work.in_range / 20, "{work:?}");
         assert!(work.rays == 0 && work.law < work.tested / 100, "{work:?}");
     }
     assert_eq!(work[2].rays, 25_600);
