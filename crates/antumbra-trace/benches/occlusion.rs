@@ -30,6 +30,8 @@ const RADII: [f32; 3] = [0.01, 0.03, 0.1];
 const COUNTS: [usize; 3] = [64, 256, 1024];
 /// Most triangles in range of the receivers that are timed together; the last has no end.
 const BINS: [u64; 7] = [2, 8, 32, 128, 512, 2048, u64::MAX];
+/// Triangles in range from which on a radius is left out: rays have won long before.
+const MOST: f64 = 8000.0;
 /// Receivers that are timed, and the most of a bin.
 const RECEIVERS: usize = 2048;
 const OF_BIN: usize = 256;
@@ -47,13 +49,13 @@ fn main() {
         let (low, high) = world.bounds();
         let diagonal = (0..3).map(|k| (high[k] - low[k]) * (high[k] - low[k])).sum::<f32>().sqrt();
         println!("\n{}: {} triangles, {} receivers", scene.name, scene.mesh.indices.len(), receivers.len());
-        for radius in RADII {
+        for radius in RADII.into_iter().take_while(|r| in_range(&world, &receivers, r * diagonal) < MOST) {
             for count in COUNTS {
                 let row = Row { scene: scene.name, radius, count, most: 0 };
                 lines.push(race(&row, &world, &receivers, &directions(count, radius * diagonal)));
             }
+            by_range(scene, &world, &receivers, (radius, diagonal), &mut lines);
         }
-        by_range(scene, &world, &receivers, diagonal, &mut lines);
     }
     if let Ok(file) = std::env::var("ANTUMBRA_RESULT") {
         let text = format!("[\n{}\n]\n", lines.join(",\n"));
@@ -170,25 +172,36 @@ fn transposed(receivers: usize, directions: usize) -> Vec<u32> {
     order.collect()
 }
 
-/// Receivers of all radii by the number of triangles in their range.
-fn by_range(scene: &Scene, world: &World, all: &[Receiver], diagonal: f32, lines: &mut Vec<String>) {
-    let mut words = Vec::new();
-    for radius in RADII {
-        let probe = directions(64, radius * diagonal);
-        let mut bins = [const { Vec::new() }; BINS.len()];
-        for at in all {
-            let work = world.occlusion_masks(std::slice::from_ref(at), &probe, Method::Receivers, &mut words);
-            let bin = BINS.iter().position(|most| work.in_range <= *most).unwrap_or(BINS.len() - 1);
-            bins[bin].push(*at);
-        }
-        for (bin, most) in bins.iter().zip(BINS).filter(|(bin, _)| bin.len() >= OF_BIN) {
-            // Whole tiles, spread over the bin.
-            let step = bin.len() / OF_BIN;
-            let some: Vec<Receiver> = bin.chunks(16).step_by(step.max(1)).flatten().copied().collect();
-            for count in COUNTS {
-                let row = Row { scene: scene.name, radius, count, most };
-                lines.push(race(&row, world, &some, &directions(count, radius * diagonal)));
-            }
+/// Mean number of triangles in range, of some receivers.
+fn in_range(world: &World, all: &[Receiver], radius: f32) -> f64 {
+    let some: Vec<Receiver> = all.iter().step_by(32).copied().collect();
+    let probe = directions(64, radius);
+    let work = world.occlusion_masks(&some, &probe, Method::Receivers, &mut Vec::new());
+    work.in_range as f64 / some.len().max(1) as f64
+}
+
+/// Receivers by the number of triangles in their range.
+fn by_range(
+    scene: &Scene,
+    world: &World,
+    all: &[Receiver],
+    (radius, diagonal): (f32, f32),
+    lines: &mut Vec<String>,
+) {
+    let (mut words, probe) = (Vec::new(), directions(64, radius * diagonal));
+    let mut bins = [const { Vec::new() }; BINS.len()];
+    for at in all {
+        let work = world.occlusion_masks(std::slice::from_ref(at), &probe, Method::Receivers, &mut words);
+        let bin = BINS.iter().position(|most| work.in_range <= *most).unwrap_or(BINS.len() - 1);
+        bins[bin].push(*at);
+    }
+    for (bin, most) in bins.iter().zip(BINS).filter(|(bin, _)| bin.len() >= OF_BIN) {
+        // Runs of neighbours, spread over the bin.
+        let step = bin.len() / OF_BIN;
+        let some: Vec<Receiver> = bin.chunks(16).step_by(step).flatten().copied().collect();
+        for count in COUNTS {
+            let row = Row { scene: scene.name, radius, count, most };
+            lines.push(race(&row, world, &some, &directions(count, radius * diagonal)));
         }
     }
 }

@@ -33,9 +33,9 @@ def _measure(run: Run) -> Mapping[str, Quantity]:
         )
         found |= of_scene
         differ, bits = differ + different, bits + compared
-    near, far = (found[f"terrain-{radius}-256-faster"] for radius in (3, 30))
+    near, far = (found[f"terrain-{radius}-256-faster"] for radius in (1, 30))
     return {**found, "differ": Quantity(differ, note=f"of {bits:,} bits"), "bits": Quantity(bits), "near": near, "far": far,
-            "tests": found["terrain-3-256-tested"], "in_range": found["terrain-3-256-in_range"], "far_range": found["terrain-30-256-in_range"]}  # fmt: skip
+            "tests": found["terrain-1-256-tested"], "in_range": found["terrain-1-256-in_range"], "far_range": found["terrain-30-256-in_range"]}  # fmt: skip
 
 
 def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
@@ -62,7 +62,7 @@ FIGURE = Figure(
     equation=Equation([OCCLUSION], "Marked: 0 where three half-spaces meet, the sides of a triangle’s edges as the point sees them: N bits, three looked up and joined by and."),
     claims=[
         Claim("Both methods give the bits of rays.", "differ", below=0.5, main=True, measured="{differ:v} of {bits:v} bits differ"),
-        Claim("A triangle takes less than one test of 256 directions.", "tests", below=1.0, measured="{tests:v}, in terrain within 3 m"),
+        Claim("A triangle takes less than one test of 256 directions.", "tests", below=1.0, measured="{tests:v}, in terrain within 1 m"),
         Claim("With few triangles in range it is faster than rays.", "near", above=1.0, measured="{near:r} times, {in_range:v} in range"),
         Claim("With very many it is slower.", "far", below=1.0, measured="{far:r} times, {far_range:v} in range"),
     ],

@@ -19,7 +19,7 @@ def shards() -> NDArray[np.float64]:
     height, turn = rng.uniform(0.25, 0.95, COUNT), 2.4 * np.arange(COUNT)
     flat = np.sqrt(1 - height**2)
     middle = np.stack([flat * np.cos(turn), height, flat * np.sin(turn)], 1) * rng.uniform(1, 3, (COUNT, 1))
-    size = 0.45 * np.linalg.norm(middle, axis=1)[:, None, None]
+    size = 0.8 * np.linalg.norm(middle, axis=1)[:, None, None]
     corners: NDArray[np.float64] = middle[:, None] + size * rng.uniform(-1, 1, (COUNT, 3, 3))
     corners[..., 1] = np.maximum(corners[..., 1], 0.05)
     return corners
