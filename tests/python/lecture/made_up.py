@@ -52,7 +52,7 @@ def _parts(run):
     table = Table(["ray", "V", "pdf"], [["1", "free", "0.5"], ["2", "blocked", "0.5"]], "Two rays.", fine=[2])
     axes = Drawing('<g data-s="random"><path class="ln" d="M0 0L9 9"/></g>', 620, 440, "A line.")
     return [
-        Strip("i", "Which", frames, start=1, labels=("side", "picture"), tells=2),
+        Strip("i", "Which", frames, labels=("side", "picture"), tells=2),
         Key([Entry("var(--umbra)", "Umbra", "none", drawing, 0), Entry("#fff", "Lit", "all", always="outside")], "i"),
         Row([picture, picture, picture, two], note="Three alike."),
         Tabs("sampler", "Sampler", [Panel(w, w, [Row([picture, picture])]) for w in ("random", "owen")]),

@@ -132,9 +132,9 @@ def test_predict_first_then_the_number(open_page):
     tab = open_page()
     # Neither equation, plots and tables nor readouts say it before.
     assert tab.locator("#one :is(.ans, .eqc, .claims, .data, .key span):visible").count() == 0
-    assert tab.locator("#one output").inner_text() == "i = 1"
+    assert tab.locator("#one output").inner_text() == "i = 0"
     slider = tab.locator("#one input[type=range]")
-    assert slider.get_attribute("aria-valuetext") == "i = 1"
+    assert slider.get_attribute("aria-valuetext") == "i = 0"
     tab.locator("#one .q button").nth(1).click()
     assert slider.get_attribute("aria-valuetext") == "i = 2: <half>, and more"
     assert tab.locator("#one .ans").is_visible() and tab.locator("#one .eqc").is_visible()
@@ -142,6 +142,29 @@ def test_predict_first_then_the_number(open_page):
     assert not tab.locator("#two .ans").is_visible()
     tab.locator("#b-answers").click()
     assert tab.locator("#two .claims").is_visible() and address(tab).endswith("answers")
+
+
+def test_the_address_keeps_all_answers_while_the_button_is_pressed(open_page):
+    tab = open_page("#/answers")
+    tab.evaluate("location.hash = '#two'")
+    tab.wait_for_function("location.hash == '#two/answers'")
+    tab.locator("#one [role=tab]").last.click()
+    assert address(tab) == "#one/answers/sampler=owen"
+    tab.locator("#b-answers").click()
+    assert address(tab) == "#one/sampler=owen" and not tab.locator("#two .claims").is_visible()
+
+
+def test_all_answers_open_with_one_layout(open_page):
+    tab = open_page()
+    # Each equation and each table is measured, and none twice.
+    asked = """() => {
+      const own = Object.getOwnPropertyDescriptor(Element.prototype, 'scrollWidth').get, seen = [];
+      Object.defineProperty(Element.prototype, 'scrollWidth', {get() { seen.push(this); return own.call(this) }});
+      document.querySelector('#b-answers').click();
+      return [seen.length, new Set(seen).size];
+    }"""
+    measured, different = tab.evaluate(asked)
+    assert measured == different > 0
 
 
 def sign(tab, choice: str) -> str:
@@ -170,10 +193,10 @@ def test_the_slider_goes_to_what_the_number_is_of_unless_it_was_moved(open_page)
     assert frame.get_attribute("data-v") == "2"
     tab = open_page()
     slider = tab.locator("#one input[type=range]")
-    slider.press("ArrowLeft")
+    slider.press("ArrowRight")
     tab.locator("#one .ask button").click()
-    assert tab.locator("#one .frames > li.on").get_attribute("data-v") == "0"
-    assert slider.get_attribute("aria-valuetext") == "i = 0: <half>, and more"
+    assert tab.locator("#one .frames > li.on").get_attribute("data-v") == "1"
+    assert slider.get_attribute("aria-valuetext") == "i = 1: <half>, and more"
 
 
 def test_an_answer_that_the_run_does_not_support_is_not_asserted(open_page):
@@ -208,8 +231,8 @@ def test_slides_step_by_keyboard(open_page):
     tab.keyboard.press(" ")
     assert tab.locator(seen["picture"]).is_visible() and not tab.locator(seen["number"]).is_visible()
     # The readout says the value, not what it means.
-    assert tab.locator("#one output").inner_text() == "i = 1" and frame.get_attribute("data-v") == "1"
-    assert tab.locator("#one input[type=range]").get_attribute("aria-valuetext") == "i = 1"
+    assert tab.locator("#one output").inner_text() == "i = 0" and frame.get_attribute("data-v") == "0"
+    assert tab.locator("#one input[type=range]").get_attribute("aria-valuetext") == "i = 0"
     tab.keyboard.press("ArrowRight")
     assert tab.locator(seen["number"]).is_visible() and address(tab) == "#slides/one/step=2"
     assert frame.get_attribute("data-v") == "2"
@@ -220,7 +243,7 @@ def test_slides_step_by_keyboard(open_page):
     assert tab.locator("#one .claims var").first.is_visible() and address(tab) == "#slides/one/step=4"
     for back in ("PageUp", "ArrowLeft", "Shift+ "):
         tab.keyboard.press(back)
-    assert address(tab) == "#slides/one/step=1" and frame.get_attribute("data-v") == "1"
+    assert address(tab) == "#slides/one/step=1" and frame.get_attribute("data-v") == "0"
     tab.keyboard.press("ArrowDown")
     assert address(tab) == "#slides/two"
     tab.keyboard.press("ArrowLeft")
@@ -249,16 +272,34 @@ def test_slides_begin_with_the_title_and_each_chapter(open_page):
 def test_a_slider_and_a_tab_keep_their_arrows_on_a_slide(open_page):
     tab = open_page("#slides/one/step=1")
     tab.locator("#one input[type=range]").focus()
-    tab.keyboard.press("ArrowLeft")
-    assert tab.locator("#one .frames > li.on").get_attribute("data-v") == "0"
+    tab.keyboard.press("ArrowRight")
+    assert tab.locator("#one .frames > li.on").get_attribute("data-v") == "1"
     tab.locator("#one [role=tab]").first.focus()
     tab.keyboard.press("ArrowRight")
     assert tab.locator("#one [role=tab][aria-selected=true]").inner_text() == "owen"
     assert "step=1" in address(tab)
     # A moved slider stays where it is when the number comes.
     tab.keyboard.press(" ")
-    assert "step=2" in address(tab) and "i=0" in address(tab)
-    assert tab.locator("#one .frames > li.on").get_attribute("data-v") == "0"
+    assert "step=2" in address(tab) and "i=1" in address(tab)
+    assert tab.locator("#one .frames > li.on").get_attribute("data-v") == "1"
+
+
+@pytest.mark.parametrize(
+    ("key", "to"), [("ArrowDown", "two"), ("ArrowUp", "ch1"), ("Home", "top"), ("End", "two")]
+)
+def test_other_keys_go_on_from_a_tab_on_a_slide(open_page, key, to):
+    tab = open_page("#slides/one/step=1")
+    tab.locator("#one [role=tab]").first.focus()
+    tab.keyboard.press(key)
+    assert address(tab) == f"#slides/{to}"
+
+
+def test_a_tab_that_the_mouse_pressed_gives_the_keys_back(open_page):
+    tab = open_page("#slides/one/step=1")
+    tab.locator("#one [role=tab]").last.click()
+    assert tab.locator("#one [role=tab][aria-selected=true]").inner_text() == "owen"
+    tab.keyboard.press("ArrowRight")
+    assert "step=2" in address(tab)
 
 
 @pytest.mark.parametrize("size", [(1280, 720), (1920, 1080)])
@@ -318,7 +359,7 @@ def test_print_shows_strips_and_answers(open_page):
     # Drawing and key are of what the number is of; on the screen they give nothing away again.
     assert tab.locator("#one .key span").first.inner_text() == "fact 2"
     tab.emulate_media(media="screen")
-    tab.wait_for_function("document.querySelector('#one .frames > li.on').dataset.v == '1'")
+    tab.wait_for_function("document.querySelector('#one .frames > li.on').dataset.v == '0'")
 
 
 def test_a_map_says_what_its_colours_mean(open_page):

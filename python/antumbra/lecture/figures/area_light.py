@@ -32,7 +32,7 @@ VIEW = FLOOR | {"eye": (2.9, 2.3, 2.0), "look_at": (-0.2, 0.2, 0.2), "up": (0.0,
 def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
     white = run.white("floor-0.5", share=99.9)
     strip = Strip(
-        "s", "Edge s of the light, all squares at the same power", [frame(run, found, size, white) for size in SIZES], 0,
+        "s", "Edge s of the light, all squares at the same power", [frame(run, found, size, white) for size in SIZES],
         ("From the side", "From below", "From outside"),
         note="Three boards hang over the receiver, their edges in line, from left to right with d₂/d₁ = 1/7, 1/3, 1. From the side, "
         "the last one. The point light sends as much straight down, but has no cos θ′: four times the power of the others.", tells=SIZES.index(0.7),

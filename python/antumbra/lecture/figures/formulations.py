@@ -32,7 +32,7 @@ def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
     label = "Radius R of the light over the height h of the room, at the same power"
     each = zip(*(frames(run, found, at, rays) for at in RATIOS), strict=True)
     panels = [
-        Panel(value, name, [Strip(key, label, strip, 0, labels, note, RATIOS.index(1.45))])
+        Panel(value, name, [Strip(key, label, strip, labels, note, RATIOS.index(1.45))])
         for (value, name, key, labels, note), strip in zip(shown, each, strict=True)
     ]
     return [

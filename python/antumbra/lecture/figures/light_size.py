@@ -45,7 +45,7 @@ def _frame(run: Run, found: Mapping[str, Quantity], size: float, white: float) -
 def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
     white = run.white("truth-0.25")
     strip = Strip("size", "Edge of the square light, at constant power", [_frame(run, found, s, white) for s in SIZES],
-                  0, ("one shadow ray", "many", "noise of one"), tells=SIZES.index(1.0))  # fmt: skip
+                  ("one shadow ray", "many", "noise of one"), tells=SIZES.index(1.0))  # fmt: skip
     curves = [
         measured(name, SIZES, each, fit=[name == "lit" and s <= 1 for s in SIZES]) for name, each in _squares(run).items()
     ]  # fmt: skip

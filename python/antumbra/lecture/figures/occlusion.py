@@ -51,7 +51,7 @@ def _measure(run: Run) -> Mapping[str, Quantity]:
 # fmt: off
 def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
     errors, truth = _errors(run), reference(run, "smooth", 1.0)
-    strip = Strip("radius", "How far the rays look", [at_radius(run, found, r) for r in RADII], 0, ("up to R", "fading, 1 − t/R"))
+    strip = Strip("radius", "How far the rays look", [at_radius(run, found, r) for r in RADII], ("up to R", "fading, 1 − t/R"))
     rows_of = {s: [Row([*counts(run, errors, s, SHOWN, 1.0), truth])] for s in SAMPLERS}
     short = Panel("short", "radius", [strip])
     tabs = Tabs("directions", "Directions", [*(Panel(s, s, row) for s, row in rows_of.items()), short, sky_panel(run), identity_panel(run, found)])

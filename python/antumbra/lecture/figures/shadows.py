@@ -43,7 +43,7 @@ def _stage(run: Run, measured: Mapping[str, Quantity]) -> list[Strip]:
             Frame(f"{scale}", f"distance {scale}: {off:v} and {on:v} of the pixels changed", pictures)
         )
     label = "Distance of the left ball from the eye, its size in proportion; at 1 it lies on the floor"
-    return [Strip("distance", label, frames, 0, ("V = 1 everywhere", "V as it is"), tells=len(frames) - 1)]
+    return [Strip("distance", label, frames, ("V = 1 everywhere", "V as it is"), tells=len(frames) - 1)]
 
 
 FIGURE = Figure(

@@ -46,7 +46,7 @@ def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
     floor, scene = np.linspace(-3, 3, 49), run.scene(alone(ABOVE))
     run.exr([[sum_over_patches(scene, (x, 0, z), SIDE) for x in floor] for z in floor])
     strip = Strip(
-        "x", "Receiver, x [m] to the side of the middle of the light", [_frame(run, x) for x in PLACES], 0,
+        "x", "Receiver, x [m] to the side of the middle of the light", [_frame(run, x) for x in PLACES],
         ("From the side", "Directions", "Area points"),
         note=f"The receiver’s fisheye: straight up in the middle, the horizon as the rim, rings at 30° and 60°; equal areas are equal "
         f"solid angles. {SHOWN:,} random directions: dots find the light, crosses do not. {SIDE}² equal patches of the light: each dot is as large as its dω.", tells=PLACES.index(0.0),

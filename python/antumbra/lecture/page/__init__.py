@@ -131,14 +131,14 @@ def aspect(cells: Sequence[Mapping[str, Any]], at_most: int = 99) -> str:
     return f"{at_most * min(ratios) / rows:.4g}"
 
 
-def printed(frames: int, start: int, at_most: int = 6) -> set[int]:
-    """Which frames of a slider are printed: evenly spread, with the first, the last and that at the start."""
+def printed(frames: int, tells: int, at_most: int = 6) -> set[int]:
+    """Which frames of a slider are printed: evenly spread, with the first, the last and the one that tells."""
     if frames <= at_most:
         return set(range(frames))
     chosen = {round(i * (frames - 1) / (at_most - 1)) for i in range(at_most)}
-    if start not in chosen:
-        chosen.remove(min(chosen - {0, frames - 1}, key=lambda i: abs(i - start)))
-    return chosen | {start}
+    if tells not in chosen:
+        chosen.remove(min(chosen - {0, frames - 1}, key=lambda i: abs(i - tells)))
+    return chosen | {tells}
 
 
 def scales(strip: Mapping[str, Any]) -> list[tuple[str, Mapping[str, Any]]]:

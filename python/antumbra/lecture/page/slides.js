@@ -46,8 +46,9 @@ const KEYS = {
 addEventListener('keydown', e => {
   const {key, target} = e;
   if (!st.slides || e.altKey || e.ctrlKey || e.metaKey || !KEYS[key]) return;
-  // A focused slider or tab keeps its arrows, a button its space.
-  if (target.matches('input,[role=tab]') ? /^(Arrow|Home|End)/.test(key) : key == ' ' && target.matches('button')) return;
+  // A focused slider keeps its keys, a tab ← and →, another button its space.
+  const own = {INPUT: /^(Arrow|Home|End)/, BUTTON: target.role ? /Left|Right/ : /\s/}[target.tagName];
+  if (own?.test(key)) return;
   e.preventDefault();
   KEYS[key](e);
 });
@@ -68,7 +69,7 @@ const apply = () => {
   if (st.slides && !st.at) st.at = stops[0].id;
   st.step = Math.min(last(stops[now()]), Math.max(0, +st.kv.step || 0));
   controls.forEach(c => c.to(c.f.id == st.at ? st.kv[c.key] : undefined));
-  if (st.kv.answers) answers(true);
+  if (st.kv.answers || pressed(all)) { answers(true); write() }
   show();
   say(nowhere && `There is no figure “${nowhere}”.`, nowhere);
   if (st.at && !st.slides) stops[now()].scrollIntoView();

@@ -1,6 +1,6 @@
 // The kinds of stage that a reader moves: sliders, tabs, rays with their table; and the copied command.
 $$('.strip').forEach(s => {
-  const f = s.closest('.fig'), {key, start, tells} = s.dataset, range = $('input', s), output = $('output', s);
+  const f = s.closest('.fig'), {key, tells} = s.dataset, range = $('input', s), output = $('output', s);
   const frames = $$('.frames > li', s), drawings = $$('.draws > svg', s), i = D.createElement('i');
   let moved = false;
   const show = n => {
@@ -14,7 +14,7 @@ $$('.strip').forEach(s => {
     $$(`.key[data-of="${key}"] [data-i]`, f).forEach(e => e.textContent = JSON.parse(facts || '[]')[e.dataset.i]);
   };
   // Until somebody moves it, it stands where nothing is given away, then where the number is seen.
-  const settle = () => show(moved ? +range.value : +(f.classList.contains('told') ? tells : start));
+  const settle = () => show(moved ? +range.value : +(f.classList.contains('told') ? tells : 0));
   range.oninput = () => { moved = true; settle(); set(f, key, frames[range.value].dataset.v) };
   const to = v => { const n = frames.findIndex(l => l.dataset.v == v); moved = n >= 0; if (moved) range.value = n; settle() };
   controls.push({f, key, to, settle});
@@ -28,7 +28,7 @@ $$('.tabbed').forEach(s => {
   };
   const pick = n => { show(n); tabs[n].focus(); set(f, key, tabs[n].dataset.v) };
   tabs.forEach((b, n) => {
-    b.onclick = () => pick(n);
+    b.onclick = e => { pick(n); leave(e) };
     b.onkeydown = e => {
       const by = {ArrowRight: 1, ArrowLeft: -1}[e.key];
       if (by) { e.preventDefault(); pick((n + by + tabs.length) % tabs.length) }

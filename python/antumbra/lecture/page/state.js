@@ -45,23 +45,29 @@ const settle = f => {
   toggle(f, 'told', paper.matches || (st.slides ? f.id == st.at && st.step > 1 : opened.has(f)));
   controls.forEach(c => c.f == f && c.settle?.());
 };
+// Pressed with the mouse on a slide, a choice or a tab gives the keys back to the slides.
+const leave = e => { if (st.slides && e.detail) e.currentTarget.blur() };
 const open = (f, on = true) => {
   on ? opened.add(f) : opened.delete(f);
   $('.ask button', f).ariaExpanded = on;
-  settle(f); fit();
+  settle(f);
 };
 // A choice answers, and so does none: then only the right one is said.
 const answer = (f, choice) => {
   const right = $('[data-ok]', f), rest = right ? `Right: ${right.textContent}. ` : 'This run leaves it open. ';
   $$('.q button', f).forEach(b => press(b, b == choice));
   $('.verdict', f).textContent = (!right || !choice ? rest : choice == right ? 'Yes. ' : 'Not so. ' + rest) + 'The number is below.';
-  open(f);
+  open(f); fit();
 };
 paper.onchange = () => figures.forEach(settle);
 figures.forEach(f => {
   $('.ask button', f).onclick = () => { answer(f); $('.ans', f).focus() };
-  // Pressed with the mouse on a slide, the choice gives the keys back to the slides.
-  $$('.q button', f).forEach(b => b.onclick = e => { answer(f, b); if (st.slides && e.detail) b.blur() });
+  $$('.q button', f).forEach(b => b.onclick = e => { answer(f, b); leave(e) });
 });
-const all = $('#b-answers'), answers = on => { figures.forEach(f => open(f, on)); press(all, on) };
-all.onclick = () => { answers(!pressed(all)); if (pressed(all)) st.kv.answers = '1'; else delete st.kv.answers; write() };
+// As long as the button is pressed, the address says it.
+const all = $('#b-answers'), answers = on => {
+  figures.forEach(f => open(f, on));
+  press(all, on);
+  if (on) st.kv.answers = '1'; else delete st.kv.answers;
+};
+all.onclick = () => { answers(!pressed(all)); fit(); write() };

@@ -25,7 +25,7 @@ def plane_moved(
     note = (
         "Green: the part from p to the light, t from 0 to 1. Orange: what a ray without end goes on to find."
     )
-    return Strip("plane", label, frames, 0, labels, note=note, tells=falling.index(start))
+    return Strip("plane", label, frames, labels, note=note, tells=falling.index(start))
 
 
 def _frame(

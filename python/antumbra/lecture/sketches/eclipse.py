@@ -33,7 +33,7 @@ def moon_moved(run: Run, sky: Bodies, distances: Sequence[int], width: float) ->
         "The sun from the ground, 0.7° across",
     )
     tells = distances.index(round(sky.turns))
-    return Strip("moon", "Distance of the moon, from centre to centre", frames, 0, labels, tells=tells)
+    return Strip("moon", "Distance of the moon, from centre to centre", frames, labels, tells=tells)
 
 
 def _frame(run: Run, sky: Bodies, d: int, at: Radii, white: float) -> Frame:

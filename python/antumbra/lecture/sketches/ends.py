@@ -54,7 +54,7 @@ def ends_compared(
         "RMSE of each pixel over the mean light: √(bias² + variance of one path · its rays / work), all terms "
         "measured; bias and variances are means over 5 × 5 pixels."
     )
-    return Strip("rays", label, frames, 0, names, note, 6)
+    return Strip("rays", label, frames, names, note, 6)
 
 
 def _frame(run: Run, ends: Mapping[str, End], names: Sequence[str], light: float, work: int) -> Frame:

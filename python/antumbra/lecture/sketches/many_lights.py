@@ -34,7 +34,7 @@ def lamps(run: Run, counts: Sequence[int]) -> Strip:
         "One ray in all goes to a lamp that is drawn: all alike, or by its contribution, the light that it would give "
         "unshadowed. A lamp below the horizon gets no ray."
     )
-    return Strip("lamps", "Lamps, their power together the same", frames, 0, labels, note=note)
+    return Strip("lamps", "Lamps, their power together the same", frames, labels, note=note)
 
 
 def plot(run: Run, found: Mapping[str, Quantity]) -> str:

@@ -33,7 +33,7 @@ def sky_panel(run: Run) -> Panel:
         "Receiver: depth z in the box, 559 deep",
         (f"{CELLS**2} random", f"one in each of {CELLS**2} cells"),
     )
-    return Panel("sky", "open sky", [Strip("z", label, frames, 0, columns, note)])
+    return Panel("sky", "open sky", [Strip("z", label, frames, columns, note)])
 
 
 def identity_panel(run: Run, found: Mapping[str, Quantity]) -> Panel:

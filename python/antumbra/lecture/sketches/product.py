@@ -28,7 +28,7 @@ def seen_times_unshadowed(run: Run, radii: Sequence[float], tells: float, x: flo
         "The last map is white where both agree, orange where there is more light than V · E, blue where less."
     )
     frames = [_frame(run, radius, (0.5 + x / WIDTH, 0.5)) for radius in radii]
-    return Strip("R", label, frames, 0, labels, note=note, tells=radii.index(tells))
+    return Strip("R", label, frames, labels, note=note, tells=radii.index(tells))
 
 
 def _frame(run: Run, radius: float, ring: tuple[float, float]) -> Frame:

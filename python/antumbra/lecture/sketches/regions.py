@@ -17,7 +17,7 @@ def receiver_moved(run: Run, disks: Disks, distances: Sequence[float], width: fl
     """Side view, map and picture of the receiver at each distance g behind the occluder: variants `g{g}`."""
     label = "Receiver, distance g behind the occluder"
     labels = ("Side view", "Region of every pixel", "Picture of the receiver")
-    return Strip("g", label, [_frame(run, disks, g, width) for g in distances], 0, labels,
+    return Strip("g", label, [_frame(run, disks, g, width) for g in distances], labels,
                  tells=distances.index(disks.length))  # fmt: skip
 
 

@@ -160,7 +160,7 @@ def turned(run: Run) -> Strip:
             )
         )
     return Strip(
-        "turn", "The studio turns about the vertical", frames, 0, ("the map", "the same scene under it")
+        "turn", "The studio turns about the vertical", frames, ("the map", "the same scene under it")
     )
 
 

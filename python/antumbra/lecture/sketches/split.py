@@ -27,7 +27,7 @@ def splits(run: Run, found: Mapping[str, Quantity], white: float) -> Panel:
         "last, which goes through the centre."
     )
     label, columns = "Viewing rays × shadow rays of each", ("an edge and a penumbra", "their errors")
-    return Panel("splits", f"{RAYS} rays", [Strip("split", label, frames, 0, columns, note, len(frames) - 1)])
+    return Panel("splits", f"{RAYS} rays", [Strip("split", label, frames, columns, note, len(frames) - 1)])
 
 
 def _frame(run: Run, found: Mapping[str, Quantity], key: str, word: str, white: float) -> Frame:

@@ -30,7 +30,7 @@ def starts_compared(
         "Contact: the shadow at the foot of the board."
     )
     return [
-        Strip("start", label, frames, 0, [f"in {file}" for file in files], tells=order.index("none")),
+        Strip("start", label, frames, [f"in {file}" for file in files], tells=order.index("none")),
         Key(entries, "start", note),
     ]
 

@@ -42,7 +42,7 @@ def one_by_one(run: Run, found: Mapping[str, Quantity]) -> Strip:
         shown = run.picture(both, alt, name=way, white=1.0, colour=True, tones=224, noise=True)
         frames.append(Frame(way, f"{name}: off by {error:1}", [shown], short=name))
     label = f"Technique: {SAMPLES} samples a pixel, and where they are off"
-    return Strip("way", label, frames, 0)
+    return Strip("way", label, frames)
 
 
 def _side_by_side(picture: ArrayLike, share: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -94,7 +94,7 @@ def finer(run: Run, cells: Sequence[int]) -> Strip:
         return Frame(str(n), says, [*shown, true], short=f"{n + 1} × {n + 1}")
 
     labels = ("even mesh", "cut along the body", "each pixel")
-    return Strip("cells", "Cells along the edge of the floor", [frame(n) for n in cells], 0, labels)
+    return Strip("cells", "Cells along the edge of the floor", [frame(n) for n in cells], labels)
 
 
 def plot(run: Run, found: Mapping[str, Quantity]) -> str:

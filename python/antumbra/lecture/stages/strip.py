@@ -30,15 +30,14 @@ class Frame(Part):
 class Strip(Part):
     """12–16 frames: `key` names the value in the address, `label` the slider, `labels` what stands over the columns.
 
-    `start`: the frame that is seen first, which gives no answer away; six frames are printed, that among them which
-    `tells` what the numbers are of (−1: none in particular).
+    The first frame is seen first and gives no answer away; six frames are printed, that among them which `tells` what
+    the numbers are of (−1: none in particular).
     """
 
     kind = "strip"
     key: str
     label: str
     frames: Sequence[Frame]
-    start: int = 0
     labels: Sequence[str] = ()
     note: str = ""
     tells: int = -1
@@ -49,5 +48,3 @@ class Strip(Part):
             raise ValueError(f"{self.key}: the frames have different columns")
         if len({f.value for f in self.frames}) != len(self.frames):
             raise ValueError(f"{self.key}: two frames have the same value")
-        if not 0 <= self.start < len(self.frames):
-            raise ValueError(f"{self.key}: there is no frame {self.start}")
