@@ -43,7 +43,7 @@ def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
         [[found[f"{name}-{r:g}-{n}-faster"].value for n in COUNTS] for name in SCENES for r in RADII[name]]
     )
     strip = Strip(
-        "triangle", "Triangles, one after another", [one_more(run, k, run.pick(Pick(280, 480))) for k in range(SHARDS)], 0,
+        "triangle", "Triangles, one after another", [one_more(run, k, run.pick(Pick(280, 480))) for k in range(SHARDS)],
         ("The newest alone", "All so far"),
         note="256 directions over a point, dense as the cosine: straight up in the middle, the horizon as the rim. Dots are free, crosses are taken.",
     )  # fmt: skip
