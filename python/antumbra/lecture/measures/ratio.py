@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import math
+from collections.abc import Iterable
 
 from antumbra.lecture.measures.replicates import of_interval
 from antumbra.lecture.quantity import Quantity
@@ -20,8 +20,14 @@ def _interval(a: Quantity) -> Interval:
 
 
 def times(a: Quantity, b: Quantity, unit: str = "", note: str = "") -> Quantity:
-    """a · b of two independent quantities."""
-    return Quantity(a.value * b.value, math.hypot(a.error * b.value, b.error * a.value), unit, note)
+    """a · b of two independent positive quantities: a over 1/b, as `statistics.ratio`, so that no end is below 0."""
+    inverse = statistics.ratio(Interval(1.0, 1.0, 1.0), _interval(b))
+    return of_interval(statistics.ratio(_interval(a), inverse), unit, note)
+
+
+def farthest_from_one(quantities: Iterable[Quantity]) -> Quantity:
+    """That whose interval reaches farthest from 1: where it is within a tolerance, all of them are."""
+    return max(quantities, key=lambda q: max(abs(end - 1) for end in q.interval))
 
 
 def squared(a: Quantity, unit: str = "", note: str = "") -> Quantity:

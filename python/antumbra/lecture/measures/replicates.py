@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from antumbra.lecture.quantity import Quantity
 from antumbra.study import statistics
@@ -26,6 +27,21 @@ def median_of(values: ArrayLike, unit: str = "", note: str = "") -> Quantity:
     found = np.asarray(values, np.float64)
     middle, low, high = (float(f(found)) for f in (np.median, np.min, np.max))
     return of_interval(Interval(middle, low, high), unit, note)
+
+
+def slope_of_root(n: Sequence[int], squares: NDArray[np.float64]) -> Interval:
+    """Slope of the root of mean `squares` (K, M) against `n` (M,): the jackknife's over K replicates.
+
+    Single ones may be lost in noise, at 0 or below, where their mean is not; so may a mean without one of them: a
+    thousandth of the whole mean stands in for it, which makes the interval wide. Raises ValueError where a whole mean
+    is not above 0.
+    """
+    means = squares.mean(0)
+    if not (means > 0).all():
+        raise ValueError(f"the error with {n[int(np.argmin(means))]} is lost in noise: it needs more rays")
+    without = np.maximum((squares.sum(0) - squares) / (len(squares) - 1), 1e-3 * means)
+    found = statistics.variance_slope(n, np.concatenate([means[None], without]))
+    return Interval(*(end / 2 for end in found))
 
 
 def of_interval(interval: Interval, unit: str = "", note: str = "") -> Quantity:

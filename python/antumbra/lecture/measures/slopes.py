@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from antumbra.lecture.measures.noise import reference_half, squared_errors
-from antumbra.lecture.measures.replicates import of_interval
+from antumbra.lecture.measures.replicates import of_interval, slope_of_root
 from antumbra.lecture.quantity import Quantity
 from antumbra.lecture.run import Run
 from antumbra.study import statistics
@@ -87,10 +87,7 @@ class Errors:
             n = every[int(np.argmin(means))]
             raise ValueError(f"{sampler} with {n} rays is as good as the truth: the truth needs more rays")
         if len(squares) > 1 and not (squares > 0).all():
-            # Single replicates are lost in the noise of the truth, their mean is not: the jackknife over means.
-            without = (squares.sum(0) - squares) / (len(squares) - 1)
-            whole = np.concatenate([means[None], np.maximum(without, 1e-3 * means)])
-            found = statistics.Interval(*(end / 2 for end in statistics.variance_slope(every, whole)))
+            found = slope_of_root(every, squares)
         else:
             found = statistics.slope(every, np.sqrt(squares))
         u = np.log(every) - np.mean(np.log(every))

@@ -9,8 +9,8 @@ from functools import cache
 import numpy as np
 from numpy.typing import NDArray
 
-from antumbra.lecture.measures.ratio import ratio
-from antumbra.lecture.measures.replicates import mean_of, of_interval
+from antumbra.lecture.measures.ratio import farthest_from_one, ratio
+from antumbra.lecture.measures.replicates import mean_of, of_interval, slope_of_root
 from antumbra.lecture.quantity import Quantity
 from antumbra.lecture.run import Run
 from antumbra.lecture.scenes.open_box import EDGE, FLOOR, TRAY, Patch, around, open_box
@@ -22,17 +22,15 @@ from antumbra.study import statistics
 Floats = NDArray[np.float64]
 
 # Cells along the edge of the box, empty, with the body, and with the mesh cut along its edges.
-SMOOTH_CELLS, BODY_CELLS, CUT_CELLS = [1, 2, 4, 8], [4, 8, 16, 32], Pick([4, 8], [4, 8, 16])
+SMOOTH_CELLS, BODY_CELLS, CUT_CELLS = [1, 2, 4, 8], [8, 16, 32], [3, 6, 12]
+CELLS = {"empty": SMOOTH_CELLS, "body": BODY_CELLS, "along": CUT_CELLS}
 # RMS errors of 2 × 2 and 3 × 3 vertices on the floor of a cube (quadrature of the closed form).
 CUBE = {1: 0.06542137235235, 2: 0.01603618598543}
 # Places of the body, rays of a vertex and of a point, points along the edge of the floor.
-PLACES, _RAYS, _SIDE = Pick(16, 32), Pick(64, 256), Pick(32, 64)
-_SURE = Pick(1 << 12, 1 << 16)
-
-
-def cells_of(run: Run) -> dict[str, list[int]]:
-    """The numbers of cells for which each kind of mesh is measured, by the names of its quantities."""
-    return {"empty": SMOOTH_CELLS, "body": BODY_CELLS, "along": run.pick(CUT_CELLS)}
+PLACES, _RAYS, _SIDE = Pick(24, 32), Pick(128, 256), Pick(32, 64)
+# Where its corner may be: a whole number of cells of each mesh, so that its edges cross cells anywhere alike.
+_NEAREST, _PERIOD = 0.25, 0.25
+_SURE = Pick(1 << 14, 1 << 16)
 
 
 def baked(scene: Scene, patch: Patch, cells: int, rays: int, seed: int) -> Floats:
@@ -89,7 +87,7 @@ class _Body:
     def __init__(self, run: Run, k: int) -> None:
         self.run, self.k = run, k
         draw = np.random.default_rng(run.seeded(k))
-        self.place = 0.3 + 0.1 * draw.random(2)
+        self.place = _NEAREST + _PERIOD * draw.random(2)
         self.scene = run.scene(open_box(TRAY, (float(self.place[0]), float(self.place[1]))))
         side = run.pick(_SIDE)
         cell = np.stack(np.meshgrid(np.arange(side), np.arange(side)), -1).reshape(-1, 2)
@@ -120,6 +118,15 @@ class _Body:
             off.append(values - self.truth[which])
         return float((off[0] * off[1]).mean())
 
+    def phase(self, cells: int) -> float:
+        """Mean squared error that is expected here over ∮ A² ds / 12 n, less 1: 0 over all places.
+
+        Where a part f of a cell's width is outside of the body, the blend is off by A t/h at t from its vertex: by
+        A² h f³ / 3 in the square, and f³ is 1/4 on average.
+        """
+        low, high = cells * self.place % 1, -cells * (self.place + EDGE) % 1
+        return float(4 * (np.stack([low, high]) ** 3).mean() - 1)
+
     def predicted(self) -> float:
         """Mean squared error times cells: ∮ A² ds / 12 over the area, A the openness just outside of the contact."""
         s = (np.arange(64) + 0.5) / 64 * EDGE
@@ -134,32 +141,34 @@ class _Body:
 
 
 def _with_body(run: Run) -> dict[str, Quantity]:
-    places, cut = run.pick(PLACES), run.pick(CUT_CELLS)
+    places = run.pick(PLACES)
     squares: dict[str, list[list[float]]] = {"body": [], "along": []}
-    predicted = []
+    phases, predicted = [], []
     for k in range(places):
         run.at(k / places, "a body on the floor")
         one = _Body(run, k)
         squares["body"].append([one.square([FLOOR], n) for n in BODY_CELLS])
-        squares["along"].append([one.square(around(*one.place), n) for n in cut])
+        squares["along"].append([one.square(around(*one.place), n) for n in CUT_CELLS])
+        phases.append([one.phase(n) for n in BODY_CELLS])
         predicted.append(one.predicted())
-    found = _roots("body", BODY_CELLS, squares) | _roots("along", cut, squares)
+    # A control variate of mean 0: where in their cells the edges of the few bodies happen to be is known.
+    drawn = np.mean(predicted) * np.array(phases) / BODY_CELLS
+    squares["body"] = (np.array(squares["body"]) - drawn).tolist()
+    found = _roots("body", BODY_CELLS, squares) | _roots("along", CUT_CELLS, squares)
     low, high = (2**end for end in found["body"].interval)
     halved = of_interval(statistics.Interval(2 ** found["body"].value, low, high))
-    # All but the coarsest mesh, whose cells are as wide as the body: squared error times cells is the same for each.
+    # All but the coarsest mesh, on whose cells the openness changes: squared error times cells is the same for each.
     each = (np.array(squares["body"]) * BODY_CELLS)[:, 1:].mean(1)
     line = ratio(mean_of(each), mean_of(predicted))
     return found | {"halved": halved, "line": line, "contact": mean_of(predicted)}
 
 
 def _roots(name: str, cells: Sequence[int], squares: dict[str, list[list[float]]]) -> dict[str, Quantity]:
-    """RMS error by number of cells, and its slope: jackknife over the places, single ones may drown in noise."""
+    """RMS error by number of cells, and its slope, by all places of the body."""
     each = np.array(squares[name])
     means = [statistics.root(statistics.mse_of(column)) for column in each.T]
-    without = (each.sum(0) - each) / (len(each) - 1)
-    slope = statistics.variance_slope(cells, np.concatenate([each.mean(0)[None], without]))
     found = {f"{name}-{n}": of_interval(root) for n, root in zip(cells, means, strict=True)}
-    return found | {name: of_interval(statistics.Interval(*(end / 2 for end in slope)))}
+    return found | {name: of_interval(slope_of_root(cells, each))}
 
 
 def errors_of_meshes(run: Run) -> dict[str, Quantity]:
@@ -168,9 +177,9 @@ def errors_of_meshes(run: Run) -> dict[str, Quantity]:
     `empty-n`, `body-n`, `along-n`: RMS error with n cells along the edge, in the empty box, with a body on the floor,
     and with the mesh cut along its edges; `body`, `along`: slopes against n; `halved`: the factor of the error for
     half the edge, `quarter`: in the empty box; `line`: squared error over what the contact line alone predicts;
-    `two`, `three`: error of 2 × 2 and 3 × 3 vertices in the cube over the exact one.
+    `cube`: error of 2 × 2 and of 3 × 3 vertices in the cube over the exact one, that which is farther off.
     """
     empty = {f"empty-{n}": _empty(run, n, TRAY) for n in SMOOTH_CELLS}
-    cube = {name: ratio(_empty(run, n, 1.0), Quantity(CUBE[n])) for n, name in ((1, "two"), (2, "three"))}
+    cube = farthest_from_one(ratio(_empty(run, n, 1.0), Quantity(known)) for n, known in CUBE.items())
     quarter = ratio(empty["empty-8"], empty["empty-4"])
-    return empty | cube | {"quarter": quarter} | _with_body(run)
+    return empty | {"cube": cube, "quarter": quarter} | _with_body(run)

@@ -11,9 +11,10 @@ from numpy.typing import NDArray
 from antumbra.hit import Hit
 from antumbra.lecture.measures.vertices import (
     BODY_CELLS,
+    CELLS,
+    CUT_CELLS,
     SMOOTH_CELLS,
     baked,
-    cells_of,
     exact,
     interpolated,
 )
@@ -67,8 +68,11 @@ def _baked(run: Run, patches: Sequence[Patch], cells: int) -> Floats:
     return values
 
 
-def finer(run: Run, cells: Sequence[int]) -> Strip:
-    """A slider over meshes: what an even one and one cut along the contact line give, and what each pixel sees."""
+def finer(run: Run, cells: Sequence[int], tells: int) -> Strip:
+    """A slider over meshes: what an even one and one cut along the contact line give, and what each pixel sees.
+
+    `tells`: cells of a mesh that the numbers are of.
+    """
     floor = FLOOR.holds(_hit(run).position)
     rest = [*walls(TRAY), *body(*_PLACE)]
     meshes = {
@@ -94,24 +98,25 @@ def finer(run: Run, cells: Sequence[int]) -> Strip:
         return Frame(str(n), says, [*shown, true], short=f"{n + 1} × {n + 1}")
 
     labels = ("even mesh", "cut along the body", "each pixel")
-    return Strip("cells", "Cells along the edge of the floor", [frame(n) for n in cells], labels)
+    label, frames = "Cells along the edge of the floor", [frame(n) for n in cells]
+    return Strip("cells", label, frames, labels, tells=cells.index(tells))
 
 
-def plot(run: Run, found: Mapping[str, Quantity]) -> str:
+def plot(found: Mapping[str, Quantity]) -> str:
     """RMS error against the cells along the edge: measured marks, and what is predicted as lines."""
     closed = [exact(n, TRAY) for n in SMOOTH_CELLS]
 
     def form(n: Floats) -> Floats:
         return np.exp(np.interp(np.log(n), np.log(SMOOTH_CELLS), np.log(closed)))
 
-    marks = {name: [found[f"{name}-{n}"] for n in cells] for name, cells in cells_of(run).items()}
+    marks = {name: [found[f"{name}-{n}"] for n in cells] for name, cells in CELLS.items()}
     empty = curve_of("empty box", SMOOTH_CELLS, marks["empty"], form, "line: closed form")
     contact = found["contact"].value
     with_body = curve_of(
         "with body", BODY_CELLS, marks["body"], lambda n: np.sqrt(contact / n), "line: √(∮AO² ds/12n)"
     )
     low, high = zip(*(q.interval for q in marks["along"]), strict=True)
-    along = Curve("mesh cut", cells_of(run)["along"], [q.value for q in marks["along"]], low, high)
+    along = Curve("mesh cut", CUT_CELLS, [q.value for q in marks["along"]], low, high)
     return error_curves(
         [with_body, empty, along], x_title="cells along the edge, n", y_title="RMS error of the openness",
         x_ticks=[1, 2, 4, 8, 16, 32], y_ticks=[0.3, 0.1, 0.03, 0.01, 0.003],
