@@ -22,7 +22,7 @@ from antumbra.study import statistics
 Floats = NDArray[np.float64]
 
 # Cells along the edge of the box, empty, with the body, and with the mesh cut along its edges.
-SMOOTH_CELLS, BODY_CELLS, CUT_CELLS = [1, 2, 4, 8], [8, 16, 32], [3, 6, 12]
+SMOOTH_CELLS, BODY_CELLS, CUT_CELLS = [3, 6, 12], [8, 16, 32], [3, 6, 12]
 CELLS = {"empty": SMOOTH_CELLS, "body": BODY_CELLS, "along": CUT_CELLS}
 # RMS errors of 2 × 2 and 3 × 3 vertices on the floor of a cube (quadrature of the closed form).
 CUBE = {1: 0.06542137235235, 2: 0.01603618598543}
@@ -181,5 +181,5 @@ def errors_of_meshes(run: Run) -> dict[str, Quantity]:
     """
     empty = {f"empty-{n}": _empty(run, n, TRAY) for n in SMOOTH_CELLS}
     cube = farthest_from_one(ratio(_empty(run, n, 1.0), Quantity(known)) for n, known in CUBE.items())
-    quarter = ratio(empty["empty-8"], empty["empty-4"])
+    quarter = ratio(empty["empty-12"], empty["empty-6"])
     return empty | {"cube": cube, "quarter": quarter} | _with_body(run)
