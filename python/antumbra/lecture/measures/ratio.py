@@ -40,3 +40,8 @@ def excess(share: Quantity) -> Quantity:
     """A ratio less 1, in per cent."""
     low, high = share.interval
     return of_interval(Interval(share.value - 1.0, low - 1.0, high - 1.0), "%", share.note)
+
+
+def scaled(a: Quantity, factor: float, unit: str = "", note: str = "") -> Quantity:
+    """a · factor, an exact number above 0: its interval end by end, wherever 0 lies."""
+    return of_interval(Interval(*(factor * end for end in _interval(a))), unit, note)

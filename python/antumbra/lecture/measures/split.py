@@ -1,7 +1,8 @@
 """How a pixel's rays are split into viewing rays and shadow rays: bias, noise, and the split that theory advises.
 
 σ_p²: variance over the pixel of its exact radiance; σ_s²: mean variance of one shadow ray. With V viewing rays and N
-shadow rays each the variance is (σ_p² + σ_s²/N) / V, and V (c_v + N c_s) is what they cost (CF38).
+shadow rays each the variance is (σ_p² + σ_s²/N) / V, and V (c_v + N c_s) is what they cost (CF38). Functions named …_of
+take arrays: luminances of K replicates, (K, H, W).
 """
 
 from __future__ import annotations
@@ -15,12 +16,13 @@ from numpy.typing import NDArray
 
 from antumbra.lecture.measures.maps import box_mean
 from antumbra.lecture.measures.noise import luminances
-from antumbra.lecture.measures.ratio import ratio
-from antumbra.lecture.measures.replicates import mean_of, median_of, of_interval
+from antumbra.lecture.measures.ratio import farthest_from_one, ratio, scaled
+from antumbra.lecture.measures.replicates import median_of, of_interval
 from antumbra.lecture.quantity import Quantity
 from antumbra.lecture.run import Run
 from antumbra.lecture.scenes import builtin
 from antumbra.study import statistics
+from antumbra.study.statistics import Interval
 
 RAYS = 200
 # Viewing rays; each has RAYS / V − 1 shadow rays.
@@ -33,62 +35,61 @@ _CALLS = 7
 
 
 class Scatter(NamedTuple):
-    """σ_p² and σ_s² [W²·m⁻⁴·sr⁻²] of each pixel, (H, W)."""
+    """Estimates of σ_p² and σ_s² [W²·m⁻⁴·sr⁻²], of each pixel by each replicate, (K, H, W): their means count."""
 
     place: NDArray[np.float64]
     light: NDArray[np.float64]
 
-    def variance(self, viewing: float, shadow: float) -> float:
+    def variance(self, viewing: float, shadow: float) -> Interval:
         """Mean over the pixels with so many viewing rays and shadow rays each."""
-        return float((self.place.mean() + self.light.mean() / shadow) / viewing)
+        return statistics.mean((self.place + self.light / shadow) / viewing)
 
-    @property
-    def advised(self) -> float:
-        """N* where both kinds of ray cost the same, for these pixels together."""
-        return math.sqrt(max(self.light.mean(), 0.0) / self.place.mean())
+    def advised(self, cost: float = 1.0) -> float:
+        """N* for these pixels together, `cost` being c_v / c_s; infinite where only the light scatters."""
+        place, light = (max(float(each.mean()), 0.0) for each in self)
+        return math.sqrt(max(cost, 0.0) * light / place) if place else math.inf
+
+
+def scatter_of(one: NDArray[np.float64], place: NDArray[np.float64], many: int) -> Scatter:
+    """From one viewing ray with one shadow ray, and with `many` of which the first is the same.
+
+    The mean square of their difference is σ_s² (1 − 1/many). The variance of the second is σ_p² + σ_s²/many; the
+    jackknife's pseudo-values (as in `statistics.variance`) are its estimates by each replicate.
+    """
+    count = len(place)
+    if count < 3:
+        raise ValueError(f"{count} replicates: at least 3 are needed for a variance with an interval")
+    light = (one - place) ** 2 / (1 - 1 / many)
+    squares = (place - place.mean(0)) ** 2
+    pseudo = (count * squares - squares.sum(0) / (count - 1)) / (count - 2)
+    return Scatter(pseudo - light / many, light)
 
 
 def scatter(run: Run, where: str) -> Scatter:
-    """Of the variants one-… and place-…: one viewing ray with one shadow ray or `MANY`.
-
-    Viewing ray and first shadow ray are the same in both: the mean square of their difference is σ_s² (1 − 1/`MANY`).
-    """
-    one, place = luminances(run, f"one-{where}"), luminances(run, f"place-{where}")
-    light = ((one - place) ** 2).mean(0) / (1 - 1 / MANY)
-    return Scatter(place.var(0, ddof=1) - light / MANY, light)
+    """Of the variants one-… and place-…: one viewing ray with one shadow ray or `MANY`."""
+    return scatter_of(luminances(run, f"one-{where}"), luminances(run, f"place-{where}"), MANY)
 
 
-def advised_map(run: Run, faint: float) -> NDArray[np.float64]:
+def advised_map(run: Run, faint: float, cost: float = 1.0) -> NDArray[np.float64]:
     """N* of each pixel, over 3 × 3 of them; NaN where one ray scatters less than `faint` [W·m⁻²·sr⁻¹]."""
-    of = scatter(run, "all")
-    place, light = (np.maximum(box_mean(each, 1), 0.0) for each in of)
+    place, light = (np.maximum(box_mean(each.mean(0), 1), 0.0) for each in scatter(run, "all"))
     with np.errstate(divide="ignore", invalid="ignore"):
-        found: NDArray[np.float64] = np.sqrt(light / place)
+        found: NDArray[np.float64] = np.sqrt(max(cost, 0.0) * light / place)
     return np.where(place + light > faint**2, found, np.nan)
 
 
-def _mse(run: Run, key: str, where: str) -> Quantity:
-    """Mean squared error of one picture against the truth, whose own noise is taken off."""
-    each, truth = luminances(run, f"{key}-{where}"), luminances(run, f"truth-{where}")
+def mse_of(each: NDArray[np.float64], truth: NDArray[np.float64]) -> Interval:
+    """Mean squared error of one replicate against the mean of `truth`, whose own noise is taken off."""
     own = truth.var(0, ddof=1) / len(truth)
-    return of_interval(
-        statistics.mse_of(
-            statistics.squared_errors(each, truth.mean(0), own),
-            own_half=statistics.reference_half(each, truth),
-        )
-    )
+    squares = statistics.squared_errors(each, truth.mean(0), own)
+    return statistics.mse_of(squares, own_half=statistics.reference_half(each, truth))
 
 
-def _bias(run: Run, key: str, where: str) -> Quantity:
-    """Root of the mean square of the bias: errors of two replicates that have no noise in common, multiplied."""
-    each, truth = luminances(run, f"{key}-{where}"), luminances(run, f"truth-{where}")
+def square_bias_of(each: NDArray[np.float64], truth: NDArray[np.float64]) -> Interval:
+    """Mean square of the bias: errors of two replicates that have no noise in common but the truth's, multiplied."""
     off, own = each - truth.mean(0), float((truth.var(0, ddof=1) / len(truth)).mean())
     products = (off[::2] * off[1::2]).mean((1, 2)) - own
-    return of_interval(statistics.root(statistics.mean(products)))
-
-
-def _root(of: Quantity) -> Quantity:
-    return of_interval(statistics.root(statistics.Interval(of.value, *of.interval)))
+    return statistics.mse_of(products, own_half=statistics.reference_half(each, truth))
 
 
 def key_of(viewing: int) -> str:
@@ -98,33 +99,32 @@ def key_of(viewing: int) -> str:
 
 def measured(run: Run, white: float) -> dict[str, Quantity]:
     """By crop: noise-KEY-CROP, error-KEY-CROP and bias-KEY-CROP over `white`; `edge`: the error of 1 × 199 through the
-    centre over that of 100 × 1; `penumbra`: the noise of 100 × 1 over that of it; `more`: its bias over that with 100
-    shadow rays; `law`: measured variance over (σ_p² + σ_s²/N) / V, mean of all splits.
+    centre over that of 100 × 1; `penumbra`: the error of 100 × 1 over that of it; `more`: its bias over that with 100
+    shadow rays; `law`: measured variance over (σ_p² + σ_s²/N) / V, of all splits that which may be farthest from 1.
     """
     found: dict[str, Quantity] = {}
-    share = Quantity(white)
     laws = []
+
+    def shown(square: Interval) -> Quantity:
+        return scaled(of_interval(statistics.root(square)), 1 / white, "%")
+
     for where in CROPS:
-        of = scatter(run, where)
+        of, truth = scatter(run, where), luminances(run, f"truth-{where}")
         for key in [*map(key_of, VIEWING), "centre100", f"centre{RAYS - 1}"]:
-            noise = of_interval(statistics.root(statistics.variance(luminances(run, f"{key}-{where}"))))
-            found[f"noise-{key}-{where}"] = ratio(noise, share, "%")
-            found[f"error-{key}-{where}"] = ratio(_root(_mse(run, key, where)), share, "%")
-        for key in (key_of(100), "centre100", f"centre{RAYS - 1}"):
-            bias = _bias(run, key, where)
-            found[f"bias-{key}-{where}"] = (
-                ratio(bias, share, "%") if bias.value else Quantity(0.0, bias.interval[1] / white, "%")
-            )
-        laws += [
-            found[f"noise-{key_of(v)}-{where}"].value ** 2 * white**2 / of.variance(v, RAYS / v - 1)
-            for v in VIEWING
-        ]
+            each = luminances(run, f"{key}-{where}")
+            found[f"noise-{key}-{where}"] = shown(statistics.variance(each))
+            found[f"error-{key}-{where}"] = shown(mse_of(each, truth))
+            if key in (key_of(100), "centre100", f"centre{RAYS - 1}"):
+                found[f"bias-{key}-{where}"] = shown(square_bias_of(each, truth))
+        for v in VIEWING:
+            seen = statistics.variance(luminances(run, f"{key_of(v)}-{where}"))
+            laws.append(of_interval(statistics.ratio(seen, of.variance(v, RAYS / v - 1))))
     many, centred = key_of(100), f"centre{RAYS - 1}"
     return found | {
         "edge": ratio(found[f"error-{centred}-edge"], found[f"error-{many}-edge"]),
-        "penumbra": ratio(found[f"noise-{many}-penumbra"], found[f"noise-{centred}-penumbra"]),
+        "penumbra": ratio(found[f"error-{many}-penumbra"], found[f"error-{centred}-penumbra"]),
         "more": ratio(found[f"bias-{centred}-edge"], found["bias-centre100-edge"]),
-        "law": mean_of(laws),
+        "law": farthest_from_one(laws),
     }
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 
 import numpy as np
@@ -51,9 +52,9 @@ def _beside(crops: list[NDArray[np.float64]], gap: float) -> NDArray[np.float64]
     return np.concatenate([first, np.full((len(first), 1), gap), second], axis=1)
 
 
-def advice(run: Run, white: float) -> Panel:
+def advice(run: Run, found: Mapping[str, Quantity], white: float) -> Panel:
     """The whole picture with both crops outlined, and N* of each pixel."""
-    best, shown = advised_map(run, 0.005 * white), run.light("all-truth")
+    best, shown = advised_map(run, 0.005 * white, cost_of(found)), run.light("all-truth")
     scale = shown.shape[1] / WIDTH
     for x, y, width, height in CROPS.values():
         left, top, right, bottom = (round(scale * side) for side in (x, y, x + width, y + height))
@@ -68,11 +69,25 @@ def advice(run: Run, white: float) -> Panel:
         ),
     ]  # fmt: skip
     note = (
-        "N* = σ_s/σ_p where both kinds of ray cost the same; below 1 it means 1. Variances are means over 3 × 3 "
-        f"of this picture's {shown.shape[1]} pixels a row: in larger ones more varies, and N* is less. "
+        f"N* = σ_s/σ_p · √(c_v/c_s), {_costs(found)}; below 1 it means 1. Variances are means over 3 × 3 of "
+        f"this picture's {shown.shape[1]} pixels a row: in larger ones more varies, and N* is less. "
         "Black: edges, and no light."
     )
     return Panel("advised", "advised N*", [Row(pictures, note)])
+
+
+def cost_of(found: Mapping[str, Quantity]) -> float:
+    """c_v / c_s as measured (`took`); 1 where no clock was asked."""
+    return found["took"].value if "took" in found else 1.0
+
+
+def _costs(found: Mapping[str, Quantity]) -> str:
+    took = found.get("took")
+    return f"c_v/c_s = {took:r} by the clock" if took else "rays counted, c_v = c_s"
+
+
+def _split(advised: float) -> str:
+    return written(advised, 2) if math.isfinite(advised) else "∞"
 
 
 def noise_plot(run: Run, found: Mapping[str, Quantity], white: float) -> str:
@@ -81,9 +96,9 @@ def noise_plot(run: Run, found: Mapping[str, Quantity], white: float) -> str:
     curves = []
     for where in reversed(CROPS):
         of = scatter(run, where)
-        exact = np.vectorize(lambda n, of=of: np.sqrt(of.variance(RAYS / (1 + n), n)) / white)
+        exact = np.vectorize(lambda n, of=of: np.sqrt(of.variance(RAYS / (1 + n), n).value) / white)
         marks = [found[f"noise-{key_of(v)}-{where}"] for v in VIEWING]
-        curves.append(curve_of(where, shadow, marks, exact, f"N* = {of.advised:.2g}"))
+        curves.append(curve_of(where, shadow, marks, exact, f"N* = {_split(of.advised(cost_of(found)))}"))
     return error_curves(
         curves, x_title="shadow rays of each viewing ray, N", y_title=f"noise over white, {RAYS} rays",
         chosen="penumbra", x_ticks=[1, 4, 19, 49, 199], y_ticks=[0.2, 0.1, 0.05, 0.02, 0.01],
