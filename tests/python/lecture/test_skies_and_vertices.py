@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from antumbra.lecture.measures import summary, vertices
-from antumbra.lecture.scenes import skies
+from antumbra.lecture.scenes import point_lights, skies
 from antumbra.lecture.scenes.open_box import EDGE, FLOOR, around
 
 
@@ -42,6 +42,16 @@ def test_the_cut_floor_covers_what_lies_beside_the_body_once():
     points = np.random.default_rng(0).random((200, 3)) * [1, 0, 1]
     inside = ((points[:, [0, 2]] > [0.31, 0.37]) & (points[:, [0, 2]] < np.array([0.31, 0.37]) + EDGE)).all(1)
     assert (sum(p.holds(points).astype(int) for p in patches) == ~inside).all()
+
+
+def test_variances_of_a_ray_under_a_thousand_points_are_those_of_the_sum():
+    k = np.arange(1000)
+    intensity, r2 = k % 7 + 1.0, k / 16 + 9
+    # E of one light is I cos θ / d², cos θ = 3 / d; the variance of a ray that goes to it with P is ΣE²/P − (ΣE)².
+    light = intensity * 3 / r2**1.5
+    for how, p in (("uniform", np.full(1000, 1e-3)), ("power", intensity / intensity.sum())):
+        known = (light**2 / p).sum() - light.sum() ** 2
+        assert point_lights.VARIANCES[how] == pytest.approx(known, rel=1e-12), how
 
 
 def test_variances_under_a_square_are_those_of_a_quadrature():

@@ -9,6 +9,7 @@ from antumbra.lecture.measures.many_lights import ANY_NUMBER, LAMPS, MOST, RAYS,
 from antumbra.lecture.quantity import Quantity
 from antumbra.lecture.run import Run
 from antumbra.lecture.scenes import builtin
+from antumbra.lecture.scenes.point_lights import VARIANCES
 from antumbra.lecture.sketches.many_lights import lamps, plot, table
 from antumbra.lecture.stages import Part, Plot
 
@@ -36,7 +37,7 @@ def _variants() -> list[Variant]:
 # fmt: off
 def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
     note = "Bars: of the noise 95 %, of the time the range of the pictures. By contribution, and with a ray to each, up to 1,000 lamps; beyond, " \
-        "a forecast: time with the number of lamps, noise as it is."
+        "a forecast: time with the number of lamps, noise as it is. At least one ray, or one pass over all lamps."
     return [lamps(run, SHOWN), Plot(plot(run, found), note, table(run, found))]
 # fmt: on
 
@@ -53,9 +54,11 @@ FIGURE = Figure(
                       "Marked: how likely lamp k was to be drawn: one in 1,000, or its power, or its light here, over that of all."),
     claims=[
         Claim("Rays to lamps drawn alike: more than 20,000 for the noise of one to each of 1,000.", "alike", above=20, main=True, measured="{alike}"),
-        Claim("By contribution, fewer than 1,000: less than a ray to each.", "chosen", below=1000, measured="{chosen}; means agree, {same}"),
-        Claim("One ray by contribution is as good among 1,000 lamps as among 10.", "grows", below=1.2, measured="noise: × {grows}"),
-        Claim("Under 1,000 points the variance of a ray is as known: 10,440 alike, 7,103 by power.", "closed-uniform", near=1.0, within=0.05,
-              measured="{closed-uniform} of it, {closed-power} by power"),
+        Claim("By contribution, fewer rays than one to each that may light the place.", "chosen", below="traced",
+              measured="{chosen}, to each {traced:v}; means agree, {same}"),
+        Claim("For a noise of 10 %, rays by contribution take less time than one to each.", f"cost-contribution-{MOST}", below=f"cost-all-{MOST}",
+              measured=f"{{cost-contribution-{MOST}:v}} a pixel, to each {{cost-all-{MOST}:v}}"),
+        Claim(f"Under 1,000 points the variance of a ray is as known: {VARIANCES['uniform']:,.0f} alike, {VARIANCES['power']:,.0f} by power.", "closed",
+              near=1.0, within=0.05, measured="the farther one: {closed} of it"),
     ],
 )  # fmt: skip

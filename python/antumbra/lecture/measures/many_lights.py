@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from antumbra.lecture.measures.ratio import ratio, squared, times
+from antumbra.lecture.measures.ratio import farthest_from_one, ratio, squared, times
 from antumbra.lecture.measures.replicates import mean_of, median_of, of_interval
 from antumbra.lecture.pictures import luminance
 from antumbra.lecture.quantity import Quantity
@@ -42,10 +43,13 @@ def reflected(run: Run, key: str) -> NDArray[np.float64]:
 
 
 def _noise(run: Run, way: str, lamps: int) -> Quantity:
-    """Standard deviation of a pixel over the mean light: of one ray, or of one to each lamp."""
-    each = reflected(run, f"{way}-{lamps}")
-    found = statistics.root(statistics.variance(each))
-    scale = (1 if way == "all" else RAYS**0.5) / each.mean()
+    """Standard deviation of a pixel over the mean light: of one ray, or of one to each lamp.
+
+    One mean for all ways, that of the least noise among those that are measured.
+    """
+    found = statistics.root(statistics.variance(reflected(run, f"{way}-{lamps}")))
+    mean = reflected(run, f"{'all' if lamps <= MOST else 'power'}-{lamps}").mean()
+    scale = (1 if way == "all" else RAYS**0.5) / mean
     return of_interval(statistics.Interval(*(scale * end for end in found)), "%")
 
 
@@ -59,7 +63,14 @@ def _time(run: Run, way: str, lamps: int) -> Quantity:
         scene.render(size=(1, 1), viewing_rays=1, estimator="area", lights=way).seconds for _ in range(3)
     ]
     rays = images[0].width * images[0].height * (1 if way == "all" else RAYS)
-    return median_of([1e6 * max(image.seconds - min(ready), 0.0) / rays for image in images], "µs")
+    left = [max(image.seconds - min(ready), image.seconds / 1000) for image in images]
+    return median_of([1e6 * seconds / rays for seconds in left], "µs")
+
+
+def _cost(noise: Quantity, time: Quantity) -> Quantity:
+    """Time of a pixel for a noise of 10 %: of so many whole rays, or passes over all lamps, at least of one."""
+    value, low, high = (max(1.0, math.ceil((x / NOISE) ** 2)) for x in (noise.value, *noise.interval))
+    return times(time, of_interval(statistics.Interval(value, low, high)), "µs")
 
 
 def forecast(found: Mapping[str, Quantity], way: str, lamps: int) -> float:
@@ -83,15 +94,16 @@ def of_lamps(run: Run) -> dict[str, Quantity]:
 
     `noise-way-k` of one ray (or one to each of k lamps), `time-way-k` of it [µs a pixel], `cost-way-k`: time for a
     noise of 10 %; `alike` and `chosen`: rays to lamps drawn alike, and by contribution, with the noise of one to each
-    of 1000, the first in thousands; `grows`: noise by contribution, 1000 lamps over 10; `same`: mean by contribution
-    over that by all; `closed-way`: variance under 1000 points over its closed form.
+    of 1000, the first in thousands; `traced`: rays of a pixel that one to each of 1000 makes, none to lamps below the
+    horizon; `same`: mean by contribution over that by all;
+    `closed`: variance under 1000 points over its closed form, alike or by power, that which is farther off.
     """
     found: dict[str, Quantity] = {}
     for way in WAYS:
         for k in measured(run, way):
             noise, time = _noise(run, way, k), _time(run, way, k)
             found |= {f"noise-{way}-{k}": noise, f"time-{way}-{k}": time}
-            found[f"cost-{way}-{k}"] = times(time, squared(ratio(noise, Quantity(NOISE))), "µs")
+            found[f"cost-{way}-{k}"] = _cost(noise, time)
     each = found[f"noise-all-{MOST}"]
     alike, chosen = (
         squared(ratio(found[f"noise-{way}-{MOST}"], each)) for way in ("uniform", "contribution")
@@ -100,9 +112,10 @@ def of_lamps(run: Run) -> dict[str, Quantity]:
     means: list[Any] = [
         mean_of(reflected(run, f"{way}-{MOST}").mean((1, 2))) for way in ("contribution", "all")
     ]
+    images = run.images(f"all-{MOST}")
+    traced = np.mean([image.shadow_rays / (image.width * image.height) for image in images])
     return found | {
-        "grows": ratio(found[f"noise-contribution-{MOST}"], found["noise-contribution-10"]),
+        "traced": Quantity(float(traced)),
         "same": ratio(*means),
-        "closed-uniform": _points(run, "uniform"),
-        "closed-power": _points(run, "power"),
+        "closed": farthest_from_one(_points(run, how) for how in VARIANCES),
     }
