@@ -80,7 +80,7 @@ impl<M: Masks> Judge<'_, M> {
         picked: &mut Picked,
         rows: &mut [Block],
     ) {
-        let (of, pair, planes) = (self.directions, ready.of, &ready.planes);
+        let (of, pair, sides) = (self.directions, ready.of, ready.planes.sides);
         let (slot, member) = (pair.slot[lane] as usize % WIDTH, pair.member[lane] as usize);
         if self.of.tree.leaves[pair.leaf][slot] == pair.receivers[member].first {
             return;
@@ -88,28 +88,8 @@ impl<M: Masks> Judge<'_, M> {
         let row = &mut rows[member * of.blocks()..][..of.blocks()];
         // A mask is asked of every hit; on the plane itself no side is known.
         let masked = M::ASK && self.of.masked.get(pair.leaf).is_some_and(|m| m >> slot & 1 == 1);
-        let known = !masked && (planes.sides[0] | planes.sides[1]) >> lane & 1 == 1;
-        let perhaps = of.levels.perhaps(ready.near.near2[lane]);
-        let mut open = [[0; 4]; MOST_BLOCKS];
-        let mut count = 0;
-        if known {
-            let surely = of.levels.surely(ready.near.far2[lane]);
-            let [a, b, c] = [planes.plane(0, lane), planes.plane(1, lane), planes.plane(2, lane)];
-            let [a, b, c] = [of.table.get(a.0, a.1), of.table.get(b.0, b.1), of.table.get(c.0, c.1)];
-            for (k, blocked) in row.iter_mut().enumerate() {
-                let may =
-                    and(and(perhaps[k], not(*blocked)), and(a.perhaps(k), and(b.perhaps(k), c.perhaps(k))));
-                let hit = and(and(surely[k], may), and(a.surely(k), and(b.surely(k), c.surely(k))));
-                *blocked = or(*blocked, hit);
-                open[k % MOST_BLOCKS] = and(may, not(hit));
-                count += ones(open[k % MOST_BLOCKS]);
-            }
-        } else {
-            for (k, blocked) in row.iter().enumerate() {
-                open[k % MOST_BLOCKS] = and(perhaps[k], not(*blocked));
-                count += ones(open[k % MOST_BLOCKS]);
-            }
-        }
+        let known = !masked && (sides[0] | sides[1]) >> lane & 1 == 1;
+        let (open, count) = open(of, ready, (lane, known), row);
         if count == 0 {
             return;
         }
@@ -229,6 +209,38 @@ impl<M: Masks> Judge<'_, M> {
                 self.masks.passes(at.number.wrapping_add(i as u32), id, uv)
             })
     }
+}
+
+/// Sets in `row` what the table is sure of, if the plane's side is `known`; what is left open, and how many they are.
+#[inline(always)]
+fn open<S: Simd>(
+    of: &Directions,
+    ready: &Ready<'_, S>,
+    (lane, known): (usize, bool),
+    row: &mut [Block],
+) -> ([Block; MOST_BLOCKS], u32) {
+    let planes = &ready.planes;
+    let perhaps = of.levels.perhaps(ready.near.near2[lane]);
+    let mut open = [[0; 4]; MOST_BLOCKS];
+    let mut count = 0;
+    if known {
+        let surely = of.levels.surely(ready.near.far2[lane]);
+        let [a, b, c] = [planes.plane(0, lane), planes.plane(1, lane), planes.plane(2, lane)];
+        let [a, b, c] = [of.table.get(a.0, a.1), of.table.get(b.0, b.1), of.table.get(c.0, c.1)];
+        for (k, blocked) in row.iter_mut().enumerate() {
+            let may = and(and(perhaps[k], not(*blocked)), and(a.perhaps(k), and(b.perhaps(k), c.perhaps(k))));
+            let hit = and(and(surely[k], may), and(a.surely(k), and(b.surely(k), c.surely(k))));
+            *blocked = or(*blocked, hit);
+            open[k % MOST_BLOCKS] = and(may, not(hit));
+            count += ones(open[k % MOST_BLOCKS]);
+        }
+    } else {
+        for (k, blocked) in row.iter().enumerate() {
+            open[k % MOST_BLOCKS] = and(perhaps[k], not(*blocked));
+            count += ones(open[k % MOST_BLOCKS]);
+        }
+    }
+    (open, count)
 }
 
 /// Calls `of` with the number of every direction of a mask.
