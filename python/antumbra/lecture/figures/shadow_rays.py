@@ -81,7 +81,7 @@ FIGURE = Figure(
     equation=Equation([SUM_OF_N], "Marked: the number of shadow rays. One centred viewing ray per pixel, so all the noise comes from the light."),
     claims=[
         Claim("Random rays: the error falls as N to the −½.", "random", near=-0.5, within=0.03, main=True, measured="slope {random}"),
-        Claim("With 256 rays owen leaves less noise than stratified: it is steeper.", "lead", below=1.0,
+        Claim("With 256 rays owen leaves less noise than stratified.", "lead", below=1.0,
               measured="{lead} of it; slopes {owen} and {stratified}"),
         Claim("With one ray, stratified is no better than random.", "alike", near=1.0, within=0.05, measured="{alike} of its noise"),
     ],
