@@ -10,6 +10,8 @@ import antumbra
 ROOT = Path(antumbra.__file__).parent
 # From the lowest floor up; everything that lies in no folder is the API.
 FLOORS = ("api", "checks", "study", "lecture", "cli")
+# The same within the lecture, whose other modules are on no floor; what draws is above what measures.
+INNER = {"scenes": 0, "measures": 0, "stages": 1, "fisheye": 1, "sketches": 2, "figures": 3, "page": 4}
 
 
 def modules() -> dict[str, Path]:
@@ -53,6 +55,24 @@ def test_rooms_import_only_from_below():
         for name, others in graph().items()
         for other in others
         if FLOORS.index(room(other)) > FLOORS.index(room(name)) and name != "antumbra.__main__"
+    ]
+    assert not upward, upward
+
+
+def inner(name: str) -> int | None:
+    """The floor of a room of the lecture."""
+    parts = name.split(".")
+    return INNER.get(parts[2]) if parts[1:2] == ["lecture"] and len(parts) > 2 else None
+
+
+def test_rooms_of_the_lecture_import_only_from_below():
+    floors = {name: floor for name in modules() if (floor := inner(name)) is not None}
+    assert {floors[name] for name in floors} == set(INNER.values())
+    upward = [
+        f"{name} imports {other}"
+        for name, others in graph().items()
+        for other in others
+        if name in floors and other in floors and floors[other] > floors[name]
     ]
     assert not upward, upward
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
@@ -27,22 +27,15 @@ class Fisheye:
         self._radius = 0.49 * wide
         self._disk((0.0, 0.0), self._radius, SKY)
 
-    def fill(self, lit: Callable[[NDArray[np.float64]], NDArray[np.bool_]], colour: str) -> float:
-        """Colours the directions for which `lit` (N, 3) → (N,) is true; returns their part of ∫ cos θ dω / π.
-
-        Only where equal areas are equal parts of it.
-        """
+    def fill(self, lit: ArrayLike, colour: str) -> None:
+        """Colours what is `lit` of the hemisphere from straight above, (S, S) as `geometry.seen_from_above` has it."""
         from PIL import Image
 
+        cells = np.asarray(lit, bool)
         x = (np.arange(self.side * _FINER) + 0.5 - self._middle) / self._radius
-        right, up = np.meshgrid(x, -x)
-        square = right**2 + up**2
-        inside = square < 1.0
-        along = np.stack([right, np.sqrt(np.maximum(1.0 - square, 0.0)), up], -1)[inside]
-        shown = np.zeros(square.shape, bool)
-        shown[inside] = lit(along)
+        at = np.clip(np.floor((x + 1) / 2 * len(cells)).astype(np.int64), 0, len(cells) - 1)
+        shown = cells[np.ix_(at, at)] & (x**2 + x[:, None] ** 2 < 1.0)
         self._image.paste(colour, mask=Image.fromarray(shown))
-        return float(shown.sum() / inside.sum())
 
     def outline(self, along: ArrayLike, colour: str = LIGHT) -> None:
         """Fills the outline through directions (N, 3)."""

@@ -1,12 +1,15 @@
-"""Closed forms that figures are held against: similar triangles, overlapping disks."""
+"""Closed forms that figures are held against: similar triangles, overlapping disks; where a camera sees a point."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
+
+Project = Callable[[ArrayLike], tuple[float, float]]
 
 
 class Disks(NamedTuple):
@@ -86,3 +89,33 @@ class Bodies(NamedTuple):
         sun, moon = math.asin(self.sun / far), math.asin(self.moon / near)
         apart = math.asin(float(np.linalg.norm(np.cross(to_sun, to_moon))) / (far * near))
         return lens(sun, moon, apart) / (math.pi * sun**2)
+
+
+def projector(eye: ArrayLike, look_at: ArrayLike, fov: float, size: tuple[int, int]) -> Project:
+    """Where a camera that stands upright sees a point, in pixels from the upper left; `fov` is vertical."""
+    origin = np.asarray(eye, np.float64)
+    forward = np.asarray(look_at) - origin
+    forward /= np.linalg.norm(forward)
+    right = np.cross(forward, [0.0, 1.0, 0.0])
+    right /= np.linalg.norm(right)
+    upward, scale = np.cross(right, forward), size[1] / 2 / np.tan(fov / 2)
+
+    def project(point: ArrayLike) -> tuple[float, float]:
+        toward = np.asarray(point) - origin
+        x, y = (float(toward @ axis / (toward @ forward) * scale) for axis in (right, upward))
+        return size[0] / 2 + x, size[1] / 2 - y
+
+    return project
+
+
+def seen_from_above(side: int) -> tuple[NDArray[np.bool_], NDArray[np.float64]]:
+    """The hemisphere over a point from straight above, in `side` × `side` cells: which lie in the disk, their middles.
+
+    (side, side) and directions (N, 3), up along +y, +x at the right, +z up. Equal areas are equal parts of ∫ cos θ dω.
+    """
+    x = (np.arange(side) + 0.5) * 2 / side - 1
+    right, up = np.meshgrid(x, -x)
+    square = right**2 + up**2
+    inside: NDArray[np.bool_] = square < 1.0
+    along = np.stack([right, np.sqrt(np.maximum(1.0 - square, 0.0)), up], -1)
+    return inside, along[inside]

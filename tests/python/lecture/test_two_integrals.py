@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from antumbra.lecture.fisheye import LIGHT, Fisheye
+from antumbra.lecture.geometry import seen_from_above
 from antumbra.lecture.measures import solid_angle
 from antumbra.lecture.measures.maps import box_mean
 from antumbra.lecture.scenes import low_room
@@ -70,7 +71,13 @@ def test_a_box_mean_keeps_even_maps_and_sums():
 
 def test_parts_of_a_disk_seen_from_above_count_with_the_cosine():
     # Below cos θ = ½ lies the rim sin² θ > ¾, a quarter of the disk; on one side of a plane a half.
+    inside, along = seen_from_above(900)
+    assert np.mean(along[:, 1] < 0.5) == pytest.approx(0.25, abs=0.001)
+    assert np.allclose(np.linalg.norm(along, axis=1), 1.0, atol=1e-12)  # rounding
+    lit = inside.copy()
+    lit[inside] = (along[:, 0] > 0) & (along[:, 2] > 0)
     fisheye = Fisheye(300, cosine=True)
-    assert fisheye.fill(lambda along: along[:, 1] < 0.5, LIGHT) == pytest.approx(0.25, abs=0.001)
-    assert fisheye.fill(lambda along: along[:, 0] > 0, LIGHT) == pytest.approx(0.5, abs=0.001)
-    assert np.count_nonzero(fisheye.radiance()[..., 0] > 0.5) > 0.5 * 0.49**2 * math.pi * 300**2
+    fisheye.fill(lit, LIGHT)
+    # The picture has them at the right and above, a quarter of the disk but for its rim of pixels.
+    bright = (fisheye.radiance()[..., 0] > 0.5) & (np.hypot(*np.indices((300, 300)) - 149.5) < 147)
+    assert bright.sum() == bright[:150, 150:].sum() == pytest.approx(0.49**2 * math.pi * 300**2 / 4, rel=0.02)

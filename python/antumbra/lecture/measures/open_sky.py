@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from antumbra.lecture.fisheye import MISSED, Fisheye
+from antumbra.lecture.geometry import seen_from_above
 from antumbra.lecture.measures.noise import luminances
 from antumbra.lecture.measures.ratio import excess, ratio
 from antumbra.lecture.measures.replicates import mean_of
@@ -19,44 +19,53 @@ from antumbra.lecture.variant import Pick
 
 # The receivers, on a line to the back of the box between the tall block and the wall.
 DEPTHS = [20 + 40 * n for n in range(14)]
-SIDE, CELLS = Pick(160, 320), 8
+CELLS = 8
+# Cells along the edge of the whole hemisphere.
+FINE = Pick(480, 960)
 _BESIDE = 480.0
-_SKY, _DOT = "#ccd9ec", "#bf3a12"
+
+
+class Directions(NamedTuple):
+    """Directions (N, 3), and which of them find the sky, (N,)."""
+
+    along: NDArray[np.float64]
+    free: NDArray[np.bool_]
+
+    @property
+    def share(self) -> float:
+        """Which part of them finds the sky."""
+        return float(self.free.mean())
 
 
 class Seen(NamedTuple):
     """The hemisphere over a receiver: with `CELLS`² random directions, and with one in each of as many cells."""
 
-    random: NDArray[np.float64]
-    cells: NDArray[np.float64]
-    shares: tuple[float, float]
-    """Which part of the directions finds the sky."""
+    random: Directions
+    cells: Directions
+    sky: NDArray[np.bool_]
+    """Where the sky is seen from straight above, as `geometry.seen_from_above` has it."""
     open: float
-    """The bright part of the disk."""
+    """The bright part of that disk."""
 
 
 def seen_from(run: Run, z: int) -> Seen:
-    """What the receiver at depth z sees; dots: directions to the sky, crosses: directions that something blocks."""
+    """What the receiver at depth z sees."""
 
     def free(along: NDArray[np.float64]) -> NDArray[np.bool_]:
         at = np.tile([_BESIDE, 0.0, float(z)], (len(along), 1))
         return ~run.scene(white_box).occluded(at, directions=along)
 
-    random = np.random.default_rng((run.seeded(0), z))
-    cells = (
-        np.moveaxis(np.indices((CELLS, CELLS)), 0, -1).reshape(-1, 2) + random.random((CELLS**2, 2))
-    ) / CELLS
-    pictures, shares, bright = [], [], 0.0
-    for places in (random.random((CELLS**2, 2)), cells):
-        fisheye = Fisheye(run.pick(SIDE), cosine=True)
-        bright = fisheye.fill(free, _SKY)
+    def of(places: NDArray[np.float64]) -> Directions:
         along = _on_the_disk(places)
-        reached = free(along)
-        fisheye.dots(along[reached], [0.012] * int(reached.sum()), _DOT)
-        fisheye.crosses(along[~reached], MISSED)
-        pictures.append(fisheye.radiance())
-        shares.append(float(reached.mean()))
-    return Seen(pictures[0], pictures[1], (shares[0], shares[1]), bright)
+        return Directions(along, free(along))
+
+    random = np.random.default_rng((run.seeded(0), z))
+    corners = np.moveaxis(np.indices((CELLS, CELLS)), 0, -1).reshape(-1, 2)
+    even, scattered = (corners + random.random((CELLS**2, 2))) / CELLS, random.random((CELLS**2, 2))
+    inside, along = seen_from_above(run.pick(FINE))
+    sky, bright = inside.copy(), free(along)
+    sky[inside] = bright
+    return Seen(of(scattered), of(even), sky, float(bright.mean()))
 
 
 def _on_the_disk(places: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -7,11 +7,11 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from antumbra.lecture.geometry import projector
 from antumbra.lecture.measures.replicates import mean_of
 from antumbra.lecture.quantity import Quantity
 from antumbra.lecture.run import Run
 from antumbra.lecture.scenes.three_pillars import CORNER, VIEW, U, V, three_pillars
-from antumbra.lecture.sketches.pixel import projector
 from antumbra.lecture.variant import Pick
 
 # A pixel of a coarse picture, at the edge of a shadow; a set of samples, of the four that the renderer makes.

@@ -6,22 +6,29 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from antumbra._words import written
-from antumbra.lecture.measures.open_sky import CELLS, all_seen, product, reflected
+from antumbra.lecture.fisheye import MISSED, Fisheye
+from antumbra.lecture.measures.open_sky import CELLS, Directions, Seen, all_seen, product, reflected
 from antumbra.lecture.quantity import Quantity
 from antumbra.lecture.run import Run
 from antumbra.lecture.stages import Frame, Panel, Row, Strip
+from antumbra.lecture.variant import Pick
+
+SIDE = Pick(160, 320)
+_SKY, _DOT = "#ccd9ec", "#bf3a12"
 
 
 def sky_panel(run: Run) -> Panel:
     """A slider of the receiver's depth in the box."""
     frames = []
     for z, seen in all_seen(run).items():
-        shares = [f"{100 * share:.0f} %" for share in seen.shares]
+        shares = [f"{100 * each.share:.0f} %" for each in (seen.random, seen.cells)]
         says = f"z = {z}: {shares[0]} and {shares[1]} of the directions, {100 * seen.open:.1f} % of the disk"
         pictures = []
-        for name, shown, share in zip(("random", "spread"), (seen.random, seen.cells), shares, strict=True):
+        for name, each, share in zip(("random", "spread"), (seen.random, seen.cells), shares, strict=True):
+            shown = _drawn(run.pick(SIDE), seen, each)
             alt = f"The sky from z = {z}: {share} of {CELLS**2} {name} directions find it."
             pictures.append(run.picture(shown, alt, name=f"sky-{z}-{name}", white=1.0, colour=True, tones=32))
         frames.append(Frame(str(z), says, pictures, short=f"z = {z}"))
@@ -34,6 +41,15 @@ def sky_panel(run: Run) -> Panel:
         (f"{CELLS**2} random", f"one in each of {CELLS**2} cells"),
     )
     return Panel("sky", "open sky", [Strip("z", label, frames, columns, note)])
+
+
+def _drawn(side: int, seen: Seen, of: Directions) -> NDArray[np.float64]:
+    """The hemisphere with dots for directions to the sky and crosses for those that something blocks."""
+    fisheye = Fisheye(side, cosine=True)
+    fisheye.fill(seen.sky, _SKY)
+    fisheye.dots(of.along[of.free], [0.012] * int(of.free.sum()), _DOT)
+    fisheye.crosses(of.along[~of.free], MISSED)
+    return fisheye.radiance()
 
 
 def identity_panel(run: Run, found: Mapping[str, Quantity]) -> Panel:

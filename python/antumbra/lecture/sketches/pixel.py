@@ -2,37 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from antumbra.lecture.geometry import Project, projector
 from antumbra.lecture.measures.pixel_rays import Rays
 from antumbra.lecture.run import Run
 from antumbra.lecture.scenes.three_pillars import ALBEDO, AREA, CORNER, RADIANCE, VIEW, U, V, three_pillars
 from antumbra.lecture.stages import Drawing, Linked, Sketch, Table
-from antumbra.lecture.stages.drawing import LIGHT, RIM, Point
+from antumbra.lecture.stages.drawing import LIGHT, RIM
 
 Array = NDArray[np.float64]
-Project = Callable[[ArrayLike], Point]
-
-
-def projector(eye: ArrayLike, look_at: ArrayLike, fov: float, size: tuple[int, int]) -> Project:
-    """Where a camera that stands upright sees a point, in pixels from the upper left; `fov` is vertical."""
-    origin = np.asarray(eye, np.float64)
-    forward = np.asarray(look_at) - origin
-    forward /= np.linalg.norm(forward)
-    right = np.cross(forward, [0.0, 1.0, 0.0])
-    right /= np.linalg.norm(right)
-    upward, scale = np.cross(right, forward), size[1] / 2 / np.tan(fov / 2)
-
-    def project(point: ArrayLike) -> Point:
-        toward = np.asarray(point) - origin
-        x, y = (float(toward @ axis / (toward @ forward) * scale) for axis in (right, upward))
-        return size[0] / 2 + x, size[1] / 2 - y
-
-    return project
 
 
 class Drawn(NamedTuple):
