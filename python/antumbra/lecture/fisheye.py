@@ -9,6 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from antumbra.lecture.pictures import linear
+
 # The ground around the disk, the sky without light, the light, what finds it, what does not.
 GROUND, SKY, LIGHT, FOUND, MISSED = "#fdf1c4", "#141a2e", "#f2b705", "#15181f", "#8ea9d1"
 _FINER = 3
@@ -67,7 +69,7 @@ class Fisheye:
 
         small = self._image.resize((self.side, self.side), Image.Resampling.BOX)
         shown = np.asarray(small, np.float64) / 255
-        return np.where(shown <= 0.04045, shown / 12.92, ((shown + 0.055) / 1.055) ** 2.4)
+        return linear(shown)
 
     @property
     def _middle(self) -> float:

@@ -28,6 +28,12 @@ def exposed(pixels: ArrayLike, white: float) -> NDArray[np.float64]:
     return np.where(x <= 0.0031308, 12.92 * x, 1.055 * np.power(x, 1 / 2.4) - 0.055)
 
 
+def linear(shown: ArrayLike) -> NDArray[np.float64]:
+    """Display values in [0, 1] as linear ones: `exposed` backwards."""
+    x = np.asarray(shown, np.float64)
+    return np.where(x <= 0.04045, x / 12.92, ((x + 0.055) / 1.055) ** 2.4)
+
+
 def luminance(pixels: ArrayLike) -> NDArray[np.float64]:
     """Luminance (H, W) of linear Rec. 709 (H, W, 3); an (H, W) array is left as it is."""
     x = np.asarray(pixels, np.float64)

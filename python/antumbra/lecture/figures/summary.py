@@ -19,6 +19,9 @@ LOOK = PILLARS_VIEW | {
     "sampler": "random",
 }
 TRUTH = LOOK | {"estimator": "mis", "sampler": "owen", "shadow_rays": Pick(128, 1024)}
+# Of all surfaces a coarse picture is off by 400 % a pixel: 4 % of the mean of 2,520 pixels and 4 pictures. Six times that:
+# 3.2 for the interval of so few, and as much for the mean itself.
+LOOSE = 0.25
 
 
 def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
@@ -39,9 +42,10 @@ FIGURE = Figure(
                       "Marked: twice the samples halve one and double the other, so ε stays; but for samplers that do better than random."),
     claims=[
         Claim("The best technique needs less than 1/5,000 of the samples.", "fewer", above=5, main=True, measured="1 in {fewer:1}"),
-        Claim("All nine that draw points of lights have one mean.", "off", near=1.0, within=0.01, measured="the farthest: {off:1}"),
-        Claim("Asking each light is worth more than choosing one.", "sample-each", above="sample-chosen", measured="× {sample-each:v}, × {sample-chosen:v}"),
-        Claim("Under one square the variance is as the closed form says.", "square-even", near=1.0, within=0.05,
-              measured="{square-even:1} of it"),
+        Claim("The nine that draw points of lights have the true mean.", "off-points", near=1.0, within=0.01, measured="farthest: {off-points:1}"),
+        Claim("So have the three others, as far as their noise lets see.", "off-directions", near=1.0, within=LOOSE,
+              measured="farthest: {off-directions:1}"),
+        Claim("Under one square the variances are as known: by directions, cosine, points, solid angle.", "square", near=1.0, within=0.05,
+              measured="farthest: {square:1} of it"),
     ],
 )  # fmt: skip

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from antumbra.lecture.measures.ratio import farthest_from_one, ratio, squared, times
 from antumbra.lecture.measures.replicates import mean_of, median_of, of_interval
+from antumbra.lecture.measures.seconds import of_rays
 from antumbra.lecture.pictures import luminance
 from antumbra.lecture.quantity import Quantity
 from antumbra.lecture.run import Run
@@ -56,15 +57,12 @@ def _noise(run: Run, way: str, lamps: int) -> Quantity:
 def _time(run: Run, way: str, lamps: int) -> Quantity:
     """Time of a pixel [µs] for one ray, or one to each lamp: the median of the pictures.
 
-    Less what a picture of one pixel takes, which makes the lamps ready as all do.
+    Less what makes the lamps ready, as all ways do.
     """
     images, scene = run.images(f"{way}-{lamps}"), run.scene(builtin("many-lights", lights=lamps))
-    ready = [
-        scene.render(size=(1, 1), viewing_rays=1, estimator="area", lights=way).seconds for _ in range(3)
-    ]
     rays = images[0].width * images[0].height * (1 if way == "all" else RAYS)
-    left = [max(image.seconds - min(ready), image.seconds / 1000) for image in images]
-    return median_of([1e6 * seconds / rays for seconds in left], "µs")
+    seconds = of_rays(images, scene, estimator="area", lights=way)
+    return median_of([1e6 * each / rays for each in seconds], "µs")
 
 
 def _cost(noise: Quantity, time: Quantity) -> Quantity:

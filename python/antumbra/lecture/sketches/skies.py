@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from antumbra.hit import Hit
 from antumbra.lecture.measures.skies import WAYS, of_sphere, seen
-from antumbra.lecture.pictures import luminance
+from antumbra.lecture.pictures import linear, luminance
 from antumbra.lecture.quantity import Quantity
 from antumbra.lecture.run import Run
 from antumbra.lecture.scenes.skies import GOLD, TURNS, alone, under_skies
@@ -84,9 +84,6 @@ def _marked(
 ) -> NDArray[np.float64]:
     """A map, its colours up to `white`, with a dot at each of some places and a cross at each of others."""
     from PIL import Image, ImageDraw
-
-    def linear(shown: NDArray[np.float64]) -> NDArray[np.float64]:
-        return np.where(shown <= 0.04045, shown / 12.92, ((shown + 0.055) / 1.055) ** 2.4)
 
     small = np.round(255 * np.clip(of / white, 0, 1) ** (1 / 2.2)).astype(np.uint8)
     image = Image.fromarray(small, "RGB").resize((_WIDE * _FINER, _HIGH * _FINER), Image.Resampling.NEAREST)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -11,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from antumbra._words import written
 from antumbra.lecture.measures.noise import luminances
 from antumbra.lecture.measures.summary import BEST, COUNTS, FIRST, SAMPLES, WAYS, compared
-from antumbra.lecture.pictures import RAMPS, ramp_colours
+from antumbra.lecture.pictures import RAMPS, linear, ramp_colours
 from antumbra.lecture.quantity import Quantity
 from antumbra.lecture.run import Run
 from antumbra.lecture.stages import Frame, Panel, Plot, Strip, Table, Tabs
@@ -24,15 +23,8 @@ _DRAWN = ("surfaces", "even", "cosine", "mis", "chosen", "stratified", "best")
 _HIGH = 0.3
 
 
-@dataclass(frozen=True)
-class Orders(Tabs):
-    """Tabs of numbers: on a slide they come with the answer."""
-
-    data = True
-
-
 def one_by_one(run: Run, found: Mapping[str, Quantity]) -> Strip:
-    """A slider over the techniques: the picture of each, and beside it its RMS error by pixel."""
+    """A slider over the techniques: the picture of each, and beside it its RMS error by pixel, in parts of white."""
     white, truth, frames = run.white("truth", share=99), run.light("truth"), []
     for way, (name, _, _) in WAYS.items():
         key, error = f"{way}-{SAMPLES}", found[f"error-{way}"]
@@ -41,21 +33,18 @@ def one_by_one(run: Run, found: Mapping[str, Quantity]) -> Strip:
         alt = f"{name}: error {error:v} of the mean light; beside the picture where it is off."
         shown = run.picture(both, alt, name=way, white=1.0, colour=True, tones=224, noise=True)
         frames.append(Frame(way, f"{name}: off by {error:1}", [shown], short=name))
-    label = f"Technique: {SAMPLES} samples a pixel, and where they are off"
-    return Strip("way", label, frames)
+    label = f"Technique: {SAMPLES} samples a pixel; right, where they are off"
+    return Strip("way", label, frames, tells=[*WAYS].index(BEST))
 
 
 def _side_by_side(picture: ArrayLike, share: NDArray[np.float64]) -> NDArray[np.float64]:
     """A picture (H, W, 3), white 1, and right of it shares 0 to 1 along the amber ramp, as linear colours."""
-    stops = np.array(
-        [[int(c[i : i + 2], 16) / 255 for i in (1, 3, 5)] for c in ramp_colours(RAMPS["amber"], 128)]
-    )
-    linear = np.where(stops <= 0.04045, stops / 12.92, ((stops + 0.055) / 1.055) ** 2.4)
-    right = linear[np.round(127 * np.clip(share, 0, 1)).astype(int)]
+    stops = [[int(c[i : i + 2], 16) / 255 for i in (1, 3, 5)] for c in ramp_colours(RAMPS["amber"], 128)]
+    right = linear(stops)[np.round(127 * np.clip(share, 0, 1)).astype(int)]
     return np.concatenate([np.asarray(picture, np.float64), right], axis=1)
 
 
-def sorted_tables(run: Run, found: Mapping[str, Quantity]) -> Orders:
+def sorted_tables(run: Run, found: Mapping[str, Quantity]) -> Plot:
     """Curves of all techniques, and their table, a tab for each order of it."""
     orders: dict[str, tuple[str, Callable[[str], float]]] = {
         "efficiency": ("by efficiency", lambda way: -found[f"second-{way}"].value),
@@ -81,9 +70,8 @@ def sorted_tables(run: Run, found: Mapping[str, Quantity]) -> Orders:
             head, rows, "Rays, time, error and efficiency of each technique", bare=True, fine=(1, 2)
         )
 
-    svg = _curves(run)
-    panels = [Panel(key, name, [Plot(svg, note, table(of))]) for key, (name, of) in orders.items()]
-    return Orders("order", "Order", panels)
+    panels = [Panel(key, name, [table(of)]) for key, (name, of) in orders.items()]
+    return Plot(_curves(run), note, Tabs("order", "Order", panels))
 
 
 def _curves(run: Run) -> str:
