@@ -38,7 +38,7 @@ def load(
     files_from: str | PathLike[str] | None = None,
     parameters: Mapping[str, str | float] | None = None,
 ) -> Scene:
-    """Reads a scene: glTF/GLB, OBJ, PLY, STL, Mitsuba 3 XML, or a lat-long picture (a built-in scene under it).
+    """Reads a scene: glTF/GLB, OBJ, PLY, STL, Mitsuba 3 XML, pbrt-v4, or a lat-long picture (and a scene under it).
 
     `up_axis`: "y" or "z", the axis that points up in the file; `files_from`: the folder that the file's own paths
     may reach (default: its own folder); `parameters`: values for what a Mitsuba file declares as `<default>`. The

@@ -15,6 +15,8 @@ pub enum Format {
     Stl,
     /// Mitsuba 3 XML.
     Mitsuba,
+    /// pbrt-v4.
+    Pbrt,
     /// A latitude-longitude picture, Radiance `.hdr` or OpenEXR.
     Environment,
     /// A format that is known by name and not read.
@@ -33,7 +35,7 @@ const EXTENSIONS: &[(&str, Format)] = &[
     ("pic", Format::Environment),
     ("exr", Format::Environment),
     ("xml", Format::Mitsuba),
-    ("pbrt", Format::NotRead("pbrt-v4")),
+    ("pbrt", Format::Pbrt),
     ("usd", Format::NotRead("USD")),
     ("usda", Format::NotRead("USD")),
     ("usdc", Format::NotRead("USD")),
@@ -81,5 +83,4 @@ pub fn format_of(path: &Path, first: &[u8]) -> Option<Format> {
 }
 
 /// The formats that are read, for messages.
-pub const READS: &str =
-    "glTF 2.0 (.gltf, .glb), OBJ, PLY, STL, Mitsuba 3 (.xml), and latitude-longitude pictures (.hdr, .exr)";
+pub const READS: &str = "glTF 2.0 (.gltf, .glb), OBJ, PLY, STL, Mitsuba 3 (.xml), pbrt-v4 (.pbrt), and latitude-longitude pictures (.hdr, .exr)";

@@ -373,3 +373,14 @@ fn hostile_files_end_quickly() {
     let said = refused(&format!("<default name='n0' value='xx'/>{doubling}{BALL}"));
     assert!(said.contains("too long"), "{said}");
 }
+
+#[test]
+fn a_sensor_that_mirrors_sees_mirrored() {
+    for (scale, mirrored) in [("1", false), ("-1", true)] {
+        let s = scene(&format!(
+            "<sensor type='perspective'><float name='fov' value='90'/><transform name='to_world'><scale x='{scale}'/>\
+             <lookat origin='1,2,3' target='1,2,0' up='0,1,0'/></transform></sensor>{BALL}"
+        ));
+        assert_eq!((s.cameras[0].mirrored, warnings(&s).len()), (mirrored, 0));
+    }
+}

@@ -37,11 +37,16 @@ def content(scene: Path) -> str:
 
 
 def _named(suffix: str, data: bytes) -> Iterator[str]:
-    """What a glTF, an OBJ, an MTL or a Mitsuba XML names, relative to it; of an XML any quoted text may be a name."""
+    """What a glTF, an OBJ, an MTL, a Mitsuba XML or a pbrt file names, relative to it.
+
+    Of the last two, any quoted text may be a name.
+    """
     if data.lstrip(_BLANK).startswith(b"<"):
         yield from dict.fromkeys(
             unescape(a or b) for a, b in _QUOTED.findall(data.decode("utf-8", "replace"))
         )
+    elif suffix == ".pbrt":
+        yield from dict.fromkeys(name.decode("utf-8", "replace") for name in _STRING.findall(data))
     elif suffix in (".gltf", ".glb"):
         if data.startswith(_GLB):
             data = data[_JSON : _JSON + int.from_bytes(data[_LENGTH], "little")]
@@ -71,6 +76,7 @@ def _at(folder: Path, name: str) -> list[Path]:
         return []
 
 
+_STRING = re.compile(rb'"([^"\n]*)"')
 _QUOTED = re.compile(r"""=\s*(?:"([^"]*)"|'([^']*)')""")
 _PARAMETER = re.compile(r"\$[\w-]+")
 # White space and the byte order mark, which may stand before an XML's first tag.

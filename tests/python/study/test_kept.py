@@ -91,6 +91,21 @@ def test_an_xml_scene_is_another_when_a_file_that_it_or_an_include_names_changes
     assert content(tmp_path / "a.xml") != before
 
 
+@pytest.mark.parametrize("beside", ["parts/inside.pbrt", "ball.ply"])
+def test_a_pbrt_scene_is_another_when_a_file_that_it_or_an_include_names_changes(tmp_path, beside):
+    (tmp_path / "parts").mkdir()
+    for name, text in (
+        ("a.pbrt", 'WorldBegin Include "parts/inside.pbrt"'),
+        ("parts/inside.pbrt", 'Shape "plymesh" "string filename" [ "ball.ply" ]'),
+        ("ball.ply", "p"),
+    ):
+        (tmp_path / name).write_text(text, encoding="utf-8")
+    before = content(tmp_path / "a.pbrt")
+    with (tmp_path / beside).open("a", encoding="utf-8") as file:
+        file.write("# new")
+    assert content(tmp_path / "a.pbrt") != before
+
+
 def test_rows_under_another_sky_of_the_same_name_are_not_mixed(tmp_path):
     sky = tmp_path / "sky.exr"
     given = {**SMALL, "environment": str(sky), "reference": "mis", "folder": tmp_path / "out"}

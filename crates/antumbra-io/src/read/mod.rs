@@ -7,9 +7,11 @@ mod gltf;
 pub(crate) mod hdr;
 mod mitsuba;
 mod obj;
+mod pbrt;
 mod ply;
 mod polygon;
 mod stl;
+mod tessellate;
 mod texels;
 mod text;
 mod uri;
@@ -137,6 +139,7 @@ fn read_as(format: Format, bytes: &[u8], context: &Context) -> Result<SceneBuild
         Format::Stl => stl::read(bytes, context),
         Format::Environment => environment::read(bytes, context),
         Format::Mitsuba => mitsuba::read(bytes, context),
+        Format::Pbrt => pbrt::read(bytes, context),
         Format::NotRead(name) => {
             let what = format!("{name} is not read yet");
             Err(ReadError::new("", what).hint(format!("antumbra reads {READS}.")))

@@ -1,6 +1,7 @@
 //! PNG, JPEG and WebP pictures for textures.
 
 use std::io::Cursor;
+use std::sync::Arc;
 
 use antumbra::texture::{Image, Texels};
 use zune_jpeg::zune_core::bytestream::ZCursor;
@@ -8,12 +9,29 @@ use zune_jpeg::zune_core::colorspace::ColorSpace;
 use zune_jpeg::zune_core::options::DecoderOptions;
 
 use super::Context;
+use super::environment::environment_picture;
 
 /// Rows of RGBA texels, eight bits each.
 struct Rgba {
     width: u32,
     height: u32,
     texels: Vec<[u8; 4]>,
+}
+
+/// A picture of any kind without its alpha: PNG, JPEG, WebP; OpenEXR and Radiance HDR, which are linear.
+pub(super) fn picture(bytes: &[u8], srgb: bool, context: &Context) -> Result<Image, String> {
+    if !matches!(bytes, [0x76, 0x2f, 0x31, 0x01, ..] | [b'#', b'?', ..]) {
+        let mut image = decode(bytes, srgb, context)?;
+        if let Texels::Srgb8(texels) | Texels::Linear8(texels) = &mut image.texels {
+            texels.iter_mut().for_each(|texel| texel[3] = 255);
+        }
+        return Ok(image);
+    }
+    let picture = environment_picture(bytes, context.limits).map_err(|e| e.to_string())?;
+    let image = Arc::unwrap_or_clone(picture.image);
+    let room = context.textures.take(u64::from(image.width) * u64::from(image.height), 12);
+    room.map_err(|_| "the pictures of the scene are too large together".to_string())?;
+    Ok(image)
 }
 
 /// Decodes a picture by its first bytes: colours as sRGB, or as plain numbers.

@@ -16,6 +16,8 @@ pub enum SpotEdge {
     Smooth,
     /// (outer − a) / (outer − inner): Mitsuba.
     Linear,
+    /// t² (3 − 2t) of the same t as glTF's: pbrt.
+    Hermite,
 }
 
 /// A spot light.
@@ -63,7 +65,7 @@ impl Spot {
             return ((self.outer - real::acosf(cos.clamp(-1.0, 1.0))) / width).clamp(0.0, 1.0);
         }
         let t = ((cos - cos_outer) / (real::cosf(self.inner) - cos_outer).max(0.001)).clamp(0.0, 1.0);
-        t * t
+        if self.edge == SpotEdge::Hermite { t * t * (3.0 - 2.0 * t) } else { t * t }
     }
 
     /// max(min(1 − (d/range)⁴, 1), 0).
@@ -122,7 +124,7 @@ impl LightKind for Spot {
         self.arrival(at.p).map_or(0.0, |(wi, _, e)| e.luminance() * wi.dot(at.ng).max(0.0))
     }
 
-    /// 2π I [(1 − cos inner) + (cos inner − cos outer)/3]; linear: 2π I [1 − (sin outer − sin inner)/(outer − inner)].
+    /// 2π I [(1 − cos inner) + (cos inner − cos outer)/3], pbrt's edge /2; linear: 2π I [1 − (sin outer − sin inner)/(outer − inner)].
     fn power(&self, _scene_radius: f32) -> f32 {
         let (inner, outer) = (real::cosf(self.inner), real::cosf(self.outer));
         let width = self.outer - self.inner;
@@ -130,6 +132,7 @@ impl LightKind for Spot {
             SpotEdge::Linear if width > NARROWEST => {
                 1.0 - (real::sinf(self.outer) - real::sinf(self.inner)) / width
             }
+            SpotEdge::Hermite => (1.0 - inner) + (inner - outer) / 2.0,
             _ => (1.0 - inner) + (inner - outer) / 3.0,
         };
         2.0 * real::PI * self.intensity.luminance() * share
@@ -172,6 +175,7 @@ impl LightKind for Spot {
         let (at, down) = (World::new(0.0, 3.0, 0.0), World::NEG_Y);
         vec![
             Spot { edge: SpotEdge::Linear, ..Spot::new(at, down, Rgb::grey(100.0), 0.3, 0.6, None) },
+            Spot { edge: SpotEdge::Hermite, ..Spot::new(at, down, Rgb::grey(50.0), 0.2, 0.5, None) },
             Spot::new(at, World::new(0.2, -1.0, 0.1), Rgb::new(9.0, 8.0, 7.0), 0.0, 1.2, Some(5.0)),
         ]
     }

@@ -43,6 +43,8 @@ pub struct Camera {
     pub lens: Option<Lens>,
     /// How far the middle of the picture lies right of and below the direction of view, in widths and heights.
     pub shift: [f64; 2],
+    /// Left and right are exchanged, as where a left-handed world is seen.
+    pub mirrored: bool,
     /// Size of the picture that goes with it [pixels], if the scene names one.
     pub size: Option<[u32; 2]>,
     /// Width over height, if the file names one (used when no size is given).
@@ -60,6 +62,7 @@ impl Camera {
             projection: Projection::Perspective { vertical_fov: vertical_fov.to_radians() },
             lens: None,
             shift: [0.0; 2],
+            mirrored: false,
             size: None,
             aspect: None,
         }
@@ -76,6 +79,7 @@ impl Camera {
             projection,
             lens: None,
             shift: [0.0; 2],
+            mirrored: false,
             size: None,
             aspect: None,
         }

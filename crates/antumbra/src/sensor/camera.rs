@@ -78,7 +78,7 @@ impl CameraSensor {
         let [width, height] = view.size.map(f64::from);
         CameraSensor {
             eye: camera.eye,
-            right,
+            right: if camera.mirrored { -right } else { right },
             up: right.cross(forward),
             forward,
             half_height,
@@ -337,6 +337,18 @@ mod tests {
         let (_, d) = CameraSensor::new(&camera, view).ray(32.0, 24.0);
         let toward = (camera.look_at - camera.eye).normalize().as_vec3();
         assert!((d - toward).length() < 1e-6);
+    }
+
+    #[test]
+    fn a_mirrored_camera_exchanges_left_and_right() {
+        let camera = Camera::perspective(DVec3::new(1.0, 2.0, 3.0), DVec3::new(0.0, 0.5, -1.0), 50.0);
+        let view =
+            View { size: [64, 48], crop: [0, 0, 64, 48], viewing: Viewing::Centre, filter: Filter::Box };
+        let mirrored = Camera { mirrored: true, ..camera.clone() };
+        let (plain, mirrored) = (CameraSensor::new(&camera, view), CameraSensor::new(&mirrored, view));
+        for (x, y) in [(3.0, 5.0), (40.0, 47.0)] {
+            assert_eq!(plain.ray(x, y), mirrored.ray(64.0 - x, y));
+        }
     }
 
     /// A camera with a lens of radius 0.2 and a picture of 64 × 48 pixels, 0.4 × 0.3 at distance 1.

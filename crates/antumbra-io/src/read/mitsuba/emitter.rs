@@ -9,6 +9,7 @@ use antumbra_math::{DVec3, Frame, Rgb, Transform};
 use super::Reader;
 use super::document::Element;
 use crate::error::ReadError;
+use crate::read::texels;
 
 /// Adds the light of an emitter; the transform takes it into the world.
 type Make = for<'a> fn(&mut Reader<'a>, &'a Element, &Transform) -> Result<(), ReadError>;
@@ -123,7 +124,7 @@ fn envmap<'a>(reader: &mut Reader<'a>, element: &'a Element, world: &Transform) 
     let file = element.filename()?;
     let fail = |why: String| element.at.error(format!("the picture \"{file}\": {why}"));
     let bytes = reader.context.files.open(file).map_err(|e| fail(e.to_string()))?;
-    let image = reader.decode(&bytes, true).map_err(fail)?;
+    let image = texels::picture(&bytes, true, reader.context).map_err(fail)?;
     let axis = |v: DVec3| world.vector(v).try_normalize().map(|v| v.as_vec3());
     let (Some(s), Some(t), Some(n)) = (axis(DVec3::X), axis(DVec3::Y), axis(DVec3::Z)) else {
         return Err(element.at.error("the transform of the envmap is singular"));

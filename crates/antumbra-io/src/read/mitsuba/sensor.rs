@@ -67,11 +67,6 @@ fn looking<'a>(
     let shift = |name| element.float(name, 0.0);
     let shift = [shift("principal_point_offset_x")?, shift("principal_point_offset_y")?];
     let world = reader.context.root.after(&element.transform("to_world")?);
-    if world.mirrors() {
-        reader
-            .said
-            .warn(element.at.words(), "the sensor's transform mirrors the picture: drawn as it stands");
-    }
     let axis = |v: DVec3| world.vector(v).try_normalize();
     let (Some(forward), Some(up)) = (axis(DVec3::Z), axis(DVec3::Y)) else {
         return Err(element.at.error("the sensor's transform is singular"));
@@ -85,6 +80,7 @@ fn looking<'a>(
         // A transform that scales the sensor scales its lens.
         lens: lens.map(|l| Lens { radius: l.radius * scale, focus: l.focus * scale }),
         shift,
+        mirrored: world.mirrors(),
         projection: Projection::Perspective { vertical_fov: 2.0 * real::atan(half) },
         ..Camera::perspective(eye, eye + forward * far, 40.0)
     };

@@ -10,7 +10,6 @@ use antumbra_math::Rgb;
 use super::Reader;
 use super::document::Element;
 use crate::error::ReadError;
-use crate::read::environment::environment_picture;
 use crate::read::texels;
 
 /// What a property is painted with.
@@ -164,7 +163,7 @@ impl<'a> Reader<'a> {
             return Ok(known.clone());
         }
         let opened = self.context.files.open(name).map_err(|e| e.to_string());
-        let image = match opened.and_then(|bytes| self.decode(&bytes, srgb)) {
+        let image = match opened.and_then(|bytes| texels::picture(&bytes, srgb, self.context)) {
             Ok(image) => Some(Arc::new(image)),
             Err(why) => {
                 let what = format!("the picture \"{name}\": {why}: drawn without it");
@@ -175,30 +174,6 @@ impl<'a> Reader<'a> {
         self.textures.images.insert(key, image.clone());
         Ok(image)
     }
-
-    /// PNG, JPEG, WebP; OpenEXR and Radiance HDR, which are linear.
-    pub(super) fn decode(&self, bytes: &[u8], srgb: bool) -> Result<Image, String> {
-        match bytes {
-            [0x76, 0x2f, 0x31, 0x01, ..] | [b'#', b'?', ..] => {
-                let picture = environment_picture(bytes, self.context.limits).map_err(|e| e.to_string())?;
-                let image = Arc::unwrap_or_clone(picture.image);
-                let pixels = u64::from(image.width) * u64::from(image.height);
-                let room = self.context.textures.take(pixels, 12);
-                room.map_err(|_| "the pictures of the scene are too large together".to_string())?;
-                Ok(image)
-            }
-            _ => Ok(opaque(texels::decode(bytes, srgb, self.context)?)),
-        }
-    }
-}
-
-/// A picture without its alpha, which no property of Mitsuba's reads.
-fn opaque(image: Image) -> Image {
-    let mut image = image;
-    if let Texels::Srgb8(texels) | Texels::Linear8(texels) = &mut image.texels {
-        texels.iter_mut().for_each(|texel| texel[3] = 255);
-    }
-    image
 }
 
 /// A colour as one number: its luminance; a grey stays what it is, to the last bit.

@@ -8,9 +8,9 @@ use antumbra_trace::{Shape, Triangles};
 
 use super::super::Reader;
 use super::super::document::Element;
-use super::round::similar;
 use super::{Body, Placing};
 use crate::error::ReadError;
+use crate::read::tessellate::similar;
 
 /// Sides of a disk that the core cannot have as one.
 const SIDES: u32 = 256;

@@ -1,13 +1,12 @@
 //! Meshes of files: PLY and OBJ, with the normals that Mitsuba gives them.
 
 use antumbra::scene::Mesh;
-use antumbra_math::{DVec3, real};
 
 use super::super::Reader;
 use super::super::document::Element;
-use super::round::face_the_normals;
 use super::{Body, Placing};
 use crate::error::ReadError;
+use crate::read::tessellate::{face_the_normals, flip, smooth};
 use crate::read::{Context, Counted, obj, ply};
 
 /// Reads the one mesh of a file.
@@ -88,28 +87,10 @@ impl Dress {
         }
         // The scene keeps the outside of a mirrored mesh outside; Mitsuba only does so where the file gives normals.
         if self.flip_normals != (self.mirrored && !given) {
-            mesh.triangles.indices.iter_mut().for_each(|t| t.swap(1, 2));
-            mesh.normals.iter_mut().flatten().for_each(|n| *n = n.map(|c| -c));
+            flip(mesh);
         }
         if self.flip_tex_coords {
             mesh.uvs[0].iter_mut().flatten().for_each(|uv| uv[1] = 1.0 - uv[1]);
         }
     }
-}
-
-/// Normals of vertices: those of their faces, weighed by the angle of the corner (Thürmer and Wüthrich 1998, "Computing
-/// Vertex Normals from Polygonal Facets").
-fn smooth(mesh: &Mesh) -> Vec<[f32; 3]> {
-    let vertices = &mesh.triangles.vertices;
-    let at = |i: u32| DVec3::from(vertices[i as usize].map(f64::from));
-    let mut sums = vec![DVec3::ZERO; vertices.len()];
-    for t in &mesh.triangles.indices {
-        let p = t.map(at);
-        let n = (p[1] - p[0]).cross(p[2] - p[0]).normalize_or_zero();
-        for i in 0..3 {
-            let (a, b) = (p[(i + 1) % 3] - p[i], p[(i + 2) % 3] - p[i]);
-            sums[t[i] as usize] += n * real::atan2(a.cross(b).length(), a.dot(b));
-        }
-    }
-    sums.into_iter().map(|s| s.normalize_or(DVec3::X).as_vec3().to_array()).collect()
 }
