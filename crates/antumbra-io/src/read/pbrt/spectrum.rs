@@ -57,7 +57,7 @@ impl Reader<'_> {
     fn pairs(&self, p: &Parameter, of: &Parameters, n: &[f64], what: Of) -> Result<Rgb, ReadError> {
         let pairs: Vec<[f64; 2]> = n.chunks_exact(2).map(|c| [c[0], c[1]]).collect();
         let rising = pairs.windows(2).all(|w| w[0][0] < w[1][0]);
-        if n.is_empty() || n.len() % 2 != 0 || !rising || !n.iter().all(|x| x.is_finite()) {
+        if n.is_empty() || !n.len().is_multiple_of(2) || !rising || !n.iter().all(|x| x.is_finite()) {
             let what = "pairs of wavelength [nm] and value are needed, the wavelengths rising";
             return Err(p.fail(of, what.into()));
         }

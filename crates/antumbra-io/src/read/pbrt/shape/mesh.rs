@@ -22,7 +22,7 @@ pub(super) fn turned(mut mesh: Mesh, reverse: bool) -> Mesh {
 /// Rows of N numbers.
 pub(super) fn rows<const N: usize>(p: &Parameters, name: &str) -> Result<Option<Vec<[f32; N]>>, ReadError> {
     let Some(numbers) = p.list(name)? else { return Ok(None) };
-    if numbers.len() % N != 0 {
+    if !numbers.len().is_multiple_of(N) {
         let what = format!("\"{name}\" has {} numbers: not a multiple of {N}", numbers.len());
         return Err(p.error(what));
     }
@@ -52,7 +52,7 @@ pub(super) fn faces<const N: usize>(p: &Parameters, vertices: usize) -> Result<V
             false => Err(p.error("\"integer indices\" is missing")),
         };
     };
-    if given.len() % N != 0 {
+    if !given.len().is_multiple_of(N) {
         return Err(p.error(format!("\"indices\" has {} numbers: not a multiple of {N}", given.len())));
     }
     if let Some(wrong) = given.iter().find(|i| !(0.0..vertices as f64).contains(*i) || i.fract() != 0.0) {
