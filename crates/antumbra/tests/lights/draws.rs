@@ -73,7 +73,9 @@ fn integrate(
     how: LightPoints,
 ) -> Grid {
     let pdf = |d: World| f64::from(light.pdf(at, d, how));
-    let grid = over_cap(bins, axis, half_angle, (200, 260), pdf);
+    // Drawn by area, the density grows without bound toward a round light's limb: more cells find it there.
+    let cells = if how == LightPoints::Area { (400, 520) } else { (200, 260) };
+    let grid = over_cap(bins, axis, half_angle, cells, pdf);
     if grid.found >= 10_000 || light.is_infinite() { grid } else { over_area(bins, light, at, pdf) }
 }
 
