@@ -304,6 +304,9 @@ impl Profile {
 mod tests {
     use super::*;
 
+    const VIEW: View =
+        View { size: [64, 48], crop: [0, 0, 64, 48], viewing: Viewing::Centre, filter: Filter::Box };
+
     #[test]
     fn sampled_filters_have_the_moments_of_their_profiles() {
         for filter in [Filter::Box, Filter::Tent, Filter::Gaussian, Filter::BlackmanHarris] {
@@ -332,9 +335,7 @@ mod tests {
     #[test]
     fn the_middle_of_the_picture_is_where_the_camera_looks() {
         let camera = Camera::perspective(DVec3::new(1.0, 2.0, 3.0), DVec3::new(0.0, 0.5, -1.0), 50.0);
-        let view =
-            View { size: [64, 48], crop: [0, 0, 64, 48], viewing: Viewing::Centre, filter: Filter::Box };
-        let (_, d) = CameraSensor::new(&camera, view).ray(32.0, 24.0);
+        let (_, d) = CameraSensor::new(&camera, VIEW).ray(32.0, 24.0);
         let toward = (camera.look_at - camera.eye).normalize().as_vec3();
         assert!((d - toward).length() < 1e-6);
     }
@@ -342,10 +343,8 @@ mod tests {
     #[test]
     fn a_mirrored_camera_exchanges_left_and_right() {
         let camera = Camera::perspective(DVec3::new(1.0, 2.0, 3.0), DVec3::new(0.0, 0.5, -1.0), 50.0);
-        let view =
-            View { size: [64, 48], crop: [0, 0, 64, 48], viewing: Viewing::Centre, filter: Filter::Box };
         let mirrored = Camera { mirrored: true, ..camera.clone() };
-        let (plain, mirrored) = (CameraSensor::new(&camera, view), CameraSensor::new(&mirrored, view));
+        let (plain, mirrored) = (CameraSensor::new(&camera, VIEW), CameraSensor::new(&mirrored, VIEW));
         for (x, y) in [(3.0, 5.0), (40.0, 47.0)] {
             assert_eq!(plain.ray(x, y), mirrored.ray(64.0 - x, y));
         }
@@ -357,9 +356,7 @@ mod tests {
         let eye = DVec3::new(1.0, 2.0, 3.0);
         let pinhole = Camera::perspective(eye, eye - DVec3::Z, fov.to_degrees());
         let camera = Camera { lens: Some(Lens { radius: 0.2, focus }), shift, ..pinhole };
-        let view =
-            View { size: [64, 48], crop: [0, 0, 64, 48], viewing: Viewing::Filter, filter: Filter::Box };
-        CameraSensor::new(&camera, view)
+        CameraSensor::new(&camera, View { viewing: Viewing::Filter, ..VIEW })
     }
 
     #[test]
