@@ -9,7 +9,7 @@ from antumbra.lecture.measures.split import CROPS, MANY, RAYS, VIEWING, WIDTH, c
 from antumbra.lecture.quantity import Quantity
 from antumbra.lecture.run import Run
 from antumbra.lecture.scenes import PILLARS_VIEW, builtin
-from antumbra.lecture.sketches.split import advice, bias_and_noise, noise_plot, splits
+from antumbra.lecture.sketches.split import advice, bias_and_noise, noise_plot, plot_note, splits
 from antumbra.lecture.stages import Part, Plot, Tabs
 
 LOOK = PILLARS_VIEW | {"estimator": "area", "light_points": "area", "filter": "box", "sampler": "random"}
@@ -32,8 +32,7 @@ def _measure(run: Run) -> Mapping[str, Quantity]:
 def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
     white = run.white("all-truth")
     tabs = Tabs("show", "What is shown", [splits(run, found, white), advice(run, found, white)])
-    note = f"Marks: measured, 95 % of {len(run.images('100x1-edge'))} replicates. Lines: √((σ_p² + σ_s²/N) / V), both variances measured apart."
-    return [tabs, Plot(noise_plot(run, found, white), note, bias_and_noise(found))]
+    return [tabs, Plot(noise_plot(run, found, white), plot_note(run, found), bias_and_noise(found))]
 
 
 FIGURE = Figure(
@@ -64,8 +63,8 @@ FIGURE = Figure(
     ),
     claims=[
         Claim("At the edge 100 × 1 has less than a third of the error.", "edge", above=3.0, main=True, measured="÷ {edge}"),
-        Claim("In the penumbra it has √2 times the error, half as many shadow rays.", "penumbra", near=2**0.5, within=0.15, measured="× {penumbra}"),
+        Claim("In the penumbra it has √2 times the error.", "penumbra", near=2**0.5, within=0.15, measured="× {penumbra}"),
         Claim("Twice the shadow rays leave the bias of the edge as it is.", "more", near=1.0, within=0.05, measured="{more} of that with 100"),
-        Claim("All splits have the variance (σ_p² + σ_s²/N) / V.", "law", near=1.0, within=0.2, measured="{law:r} of it where farthest, 11 splits of both crops"),
+        Claim("All splits have the variance (σ_p² + σ_s²/N) / V.", "law", near=1.0, within=0.2, measured="{law:r}, the farthest of 22"),
     ],
 )  # fmt: skip

@@ -106,6 +106,16 @@ def noise_plot(run: Run, found: Mapping[str, Quantity], white: float) -> str:
     )  # fmt: skip
 
 
+def plot_note(run: Run, found: Mapping[str, Quantity]) -> str:
+    """What marks and lines of the plot are, and which costs N* has."""
+    count, least = len(run.images(f"{key_of(VIEWING[0])}-edge")), _split(scatter(run, "penumbra").advised())
+    costs = f"{_costs(found)}; by rays counted, as drawn, {least}" if "took" in found else _costs(found)
+    return (
+        f"Marks: measured, 95 % of {count} replicates. Lines: √((σ_p² + σ_s²/N) / V), both variances measured apart. "
+        f"N*: {costs}."
+    )
+
+
 def bias_and_noise(found: Mapping[str, Quantity]) -> Table:
     """Bias and noise of the split that goes through the centre and of that which does not, at equal rays.
 
