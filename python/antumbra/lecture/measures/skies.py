@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import math
 from typing import Any
 
@@ -74,7 +75,7 @@ def noises(run: Run) -> dict[str, Quantity]:
         others = [found[f"{way}-{sky}-{part}"] for way in (("map",) if sky in SUNS else ("map", "brdf"))]
         return ratio(found[f"mis-{sky}-{part}"], min(others, key=lambda q: q.value))
 
-    worst = max((over_better(sky, part) for sky in SKIES for part in PARTS), key=lambda q: q.value)
+    worst = max((over_better(sky, part) for sky in SKIES for part in PARTS), key=lambda q: q.interval[1])
     mask = _mask(run, "all")
     brdf, both = (mean_of(luminances(run, f"{way}-studio")[:, mask].mean(1)) for way in ("brdf", "mis"))
     gilded = ratio(found["map-painted-gold"], found["brdf-painted-gold"])
@@ -113,16 +114,17 @@ def met_sun(run: Run) -> dict[str, Quantity]:
     return {"rare": rare, "disc": closed, "agree": ratio(rare, closed), "worth": worth}
 
 
-def same_scene(run: Run) -> dict[str, Quantity]:
-    """`moved`: pixels whose surface is another one under another sky; 0, bit by bit."""
+def surfaces(run: Run) -> list[str]:
+    """Hashes of what is seen under the skies: of position, normal, albedo and depth, bit by bit; one if all agree."""
     layers = ("position", "normal", "albedo", "depth")
-    first = {name: run.aov(f"mis-{SKIES[0]}", name) for name in layers}
-    other = [
-        np.any(run.aov(f"mis-{sky}", name).view(np.uint32) != first[name].view(np.uint32))
-        for sky in SKIES
-        for name in layers
-    ]
-    return {"moved": Quantity(float(sum(other)))}
+
+    def seen_under(sky: str) -> str:
+        found = hashlib.sha256()
+        for name in layers:
+            found.update(np.ascontiguousarray(run.aov(f"mis-{sky}", name)).tobytes())
+        return found.hexdigest()[:16]
+
+    return sorted({seen_under(sky) for sky in SKIES})
 
 
 def of_sphere(run: Run, radii: float) -> Quantity:
