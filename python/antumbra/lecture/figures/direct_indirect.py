@@ -40,7 +40,7 @@ def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
     white, light = run.white(f"depth-{LAST}", share=95), float(run.light(f"depth-{LAST}").mean())
     ends = ends_compared(run, _ends(run), list(ENDS.values()), light, WORK)
     strip = Strip("reflections", "Reflections on the way to the eye", [bounce(run, found, k, white) for k in DEPTHS],
-                  ("this alone", "all up to here"), tells=2)  # fmt: skip
+                  ("this alone", "all up to here"), tells=1)  # fmt: skip
     tabs = Tabs("show", "What is shown", [Panel("bounces", "Bounce by bounce", [strip]), Panel("ends", "Where a path ends", [ends])])  # fmt: skip
     rows = {str(k): (found[f"share-{k}"], found[f"left-{k}"]) for k in (1, 2, 4, 8)}
     cost = ", ".join(f"{words} {found[f'rays-{way}'].value:.1f}" for way, words in ENDS.items())
