@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from antumbra.lecture.measures.noise import reflected
 from antumbra.lecture.measures.ratio import farthest_from_one, ratio, squared, times
 from antumbra.lecture.measures.replicates import mean_of, median_of, of_interval
 from antumbra.lecture.measures.seconds import of_rays
@@ -38,9 +39,9 @@ def measured(run: Run, way: str) -> list[int]:
     return [k for k in run.pick(LAMPS) if k <= MOST or way in ANY_NUMBER]
 
 
-def reflected(run: Run, key: str) -> NDArray[np.float64]:
+def lit(run: Run, key: str) -> NDArray[np.float64]:
     """Luminance of each replicate of a variant without the lamps that are seen themselves, (K, H, W)."""
-    return np.array([luminance(image.pixels - image.aov["emission"]) for image in run.images(key)])
+    return luminance(reflected(run, key))
 
 
 def _noise(run: Run, way: str, lamps: int) -> Quantity:
@@ -48,8 +49,8 @@ def _noise(run: Run, way: str, lamps: int) -> Quantity:
 
     One mean for all ways, that of the least noise among those that are measured.
     """
-    found = statistics.root(statistics.variance(reflected(run, f"{way}-{lamps}")))
-    mean = reflected(run, f"{'all' if lamps <= MOST else 'power'}-{lamps}").mean()
+    found = statistics.root(statistics.variance(lit(run, f"{way}-{lamps}")))
+    mean = lit(run, f"{'all' if lamps <= MOST else 'power'}-{lamps}").mean()
     scale = (1 if way == "all" else RAYS**0.5) / mean
     return of_interval(statistics.Interval(*(scale * end for end in found)), "%")
 
@@ -107,9 +108,7 @@ def of_lamps(run: Run) -> dict[str, Quantity]:
         squared(ratio(found[f"noise-{way}-{MOST}"], each)) for way in ("uniform", "contribution")
     )
     found |= {"alike": times(alike, Quantity(1e-3), "thousand"), "chosen": chosen}
-    means: list[Any] = [
-        mean_of(reflected(run, f"{way}-{MOST}").mean((1, 2))) for way in ("contribution", "all")
-    ]
+    means: list[Any] = [mean_of(lit(run, f"{way}-{MOST}").mean((1, 2))) for way in ("contribution", "all")]
     images = run.images(f"all-{MOST}")
     traced = np.mean([image.shadow_rays / (image.width * image.height) for image in images])
     return found | {

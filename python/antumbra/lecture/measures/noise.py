@@ -17,6 +17,11 @@ def luminances(run: Run, key: str) -> NDArray[np.float64]:
     return np.array([luminance(image.pixels) for image in run.images(key)])
 
 
+def reflected(run: Run, key: str) -> NDArray[np.float64]:
+    """Each replicate of a variant without the light that it shows itself, (K, H, W, 3)."""
+    return np.array([image.pixels - image.aov["emission"] for image in run.images(key)], np.float64)
+
+
 def noise_over(run: Run, key: str, other: str) -> Quantity:
     """Standard deviation of one variant over that of another, from the scatter of replicates: it needs no truth."""
     return of_interval(

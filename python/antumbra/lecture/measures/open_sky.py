@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from antumbra.lecture.geometry import seen_from_above
-from antumbra.lecture.measures.noise import luminances
+from antumbra.lecture.measures.noise import luminances, reflected
 from antumbra.lecture.measures.ratio import excess, ratio
 from antumbra.lecture.measures.replicates import mean_of
 from antumbra.lecture.pictures import luminance
@@ -87,36 +87,15 @@ def product(run: Run, some: slice = slice(None)) -> NDArray[np.float64]:
     return albedo * np.mean([image.pixels for image in run.images("identity-ao")[some]], 0, dtype=np.float64)
 
 
-def reflected(run: Run, key: str, replicate: int = 0) -> NDArray[np.float64]:
-    """The picture of a variant less the sky that it shows itself, (H, W, 3)."""
-    image = run.images(key)[replicate]
-    return np.asarray(image.pixels - image.aov["emission"], np.float64)
-
-
 def compared(run: Run) -> dict[str, Quantity]:
     """`identical`: largest difference of product and picture of the same rays; `off`: that of their means, where random
-    numbers and density of the directions are others; `disk`: largest of a disk's bright part from the renderer's AO.
+    numbers and density of the directions are others.
     """
-    same = float(np.abs(reflected(run, "identity-same") - product(run, slice(1))).max())
-    apart = luminance(
-        np.array([reflected(run, "identity-other", n) for n in range(len(run.images("identity-other")))])
-    )
+    same = float(np.abs(reflected(run, "identity-same")[0] - product(run, slice(1))).max())
+    apart = luminance(reflected(run, "identity-other"))
     albedo = luminance(np.asarray(run.aov("identity-ao", "albedo"), np.float64))
     mine = albedo * luminances(run, "identity-ao")
-    scene, rays = run.scene(white_box), 2**14
-    disk = [
-        each.open
-        - float(
-            np.asarray(
-                scene.ambient_occlusion(
-                    [[_BESIDE, 0.0, float(z)]], [[0.0, 1.0, 0.0]], rays=rays, seed=run.seeded(3)
-                )
-            )[0]
-        )
-        for z, each in all_seen(run).items()
-    ]
     return {
         "identical": Quantity(same),
         "off": excess(ratio(mean_of(apart.mean((1, 2))), mean_of(mine.mean((1, 2))))),
-        "disk": Quantity(float(np.abs(disk).max())),
     }

@@ -82,11 +82,11 @@ def noises(run: Run) -> dict[str, Quantity]:
     return found | {"insured": worst, "gilded": gilded, "same": ratio(brdf, both)}
 
 
-def _asked(run: Run, seed: int, n: int, **options: Any) -> NDArray[np.float64]:
-    """Irradiance at the open place under the midday sky [W/m²], by many estimates of `n` directions each."""
+def _asked(run: Run, seed: int, n: int, light: list[str], **options: Any) -> NDArray[np.float64]:
+    """Irradiance at the open place by some lights [W/m²], by many estimates of `n` directions each."""
     found = run.scene(under_skies).irradiance(
         np.tile(OPEN, (_ESTIMATES, 1)), (0.0, 1.0, 0.0), shadow_rays=n, seed=run.seeded(seed),
-        sampler="random", light=lights_of("midday"), **options,
+        sampler="random", light=light, **options,
     )  # fmt: skip
     return np.asarray(found, np.float64)[:, 1]
 
@@ -100,12 +100,12 @@ def met_sun(run: Run) -> dict[str, Quantity]:
     """`rare`: directions of density cos θ/π until one meets the midday sun; `worth`: how many of them one of the map's
     has the variance of, sky and sun together. `disc`: the first by the closed form 1 / (sin² α cos θ). In thousands.
     """
-    n = run.pick(_DIRECTIONS)
-    by_brdf = _asked(run, 1, n, estimator="hemisphere", directions="cosine")
-    by_map = _asked(run, 2, 16, estimator="area", lights="contribution")
-    # One direction that meets the sun lifts an estimate by π L / n, far over what the sky does.
-    jumps = by_brdf - np.median(by_brdf)
-    hits = float(np.round(jumps / jumps[jumps > jumps.max() / 8].min()).sum())
+    n, sky = run.pick(_DIRECTIONS), lights_of("midday")
+    by_brdf = _asked(run, 1, n, sky, estimator="hemisphere", directions="cosine")
+    by_map = _asked(run, 2, 16, sky, estimator="area", lights="contribution")
+    # Of the sun alone each direction that meets it brings π L / n, the others nothing.
+    by_sun = _asked(run, 1, n, sky[-1:], estimator="hemisphere", directions="cosine")
+    hits = float(np.round(by_sun / by_sun[by_sun > 0].min()).sum())
     tried, spread = _ESTIMATES * n, 1.96 / math.sqrt(hits)
     once = tried / hits / 1000
     rare = of_interval(statistics.Interval(once, once / (1 + spread), once * (1 + spread)), "thousand")

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from antumbra._words import written
-from antumbra.lecture.measures.many_lights import LAMPS, MOST, WAYS, forecast, measured, reflected
+from antumbra.lecture.measures.many_lights import LAMPS, MOST, WAYS, forecast, lit, measured
 from antumbra.lecture.quantity import Quantity
 from antumbra.lecture.run import Run
 from antumbra.lecture.stages import Frame, Strip, Table
@@ -21,7 +21,7 @@ def lamps(run: Run, counts: Sequence[int]) -> Strip:
     """A slider over the number of lamps: one ray to a lamp drawn alike, one drawn by contribution, a ray to each."""
     frames = []
     for k in counts:
-        white = float(np.percentile(reflected(run, f"seen-all-{k}"), 97))
+        white = float(np.percentile(lit(run, f"seen-all-{k}"), 97))
         pictures, rays = [], run.image(f"seen-all-{k}")
         for way, words in (("uniform", "noise"), ("contribution", "hardly noise"), ("all", "no noise")):
             alt = f"{k} lamps, {_NAMES[way]}: {words if k > 1 else 'the same picture'}."

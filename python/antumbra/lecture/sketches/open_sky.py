@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 
 from antumbra._words import written
 from antumbra.lecture.fisheye import MISSED, Fisheye
-from antumbra.lecture.measures.open_sky import CELLS, Directions, Seen, all_seen, product, reflected
+from antumbra.lecture.measures.noise import reflected
+from antumbra.lecture.measures.open_sky import CELLS, Directions, Seen, all_seen, product
 from antumbra.lecture.quantity import Quantity
 from antumbra.lecture.run import Run
 from antumbra.lecture.stages import Frame, Panel, Row, Strip
@@ -54,8 +55,7 @@ def _drawn(side: int, seen: Seen, of: Directions) -> NDArray[np.float64]:
 
 def identity_panel(run: Run, found: Mapping[str, Quantity]) -> Panel:
     """The product, the picture by other directions, and what is left between them."""
-    count = len(run.images("identity-other"))
-    mine, picture = product(run), np.mean([reflected(run, "identity-other", n) for n in range(count)], 0)
+    mine, picture = product(run), reflected(run, "identity-other").mean(0)
     white, off = float(np.percentile(picture, 99)), (picture - mine).mean(2) / float(picture.mean())
     looks: dict[str, Any] = {"white": white, "colour": True, "noise": True}
     pictures = [
