@@ -1,7 +1,7 @@
 # The verbs of this repository; `make` alone lists them. Everything they need is set up on the way.
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
-.PHONY: help demo test lint bench stress agreement docs gallery wheel setup clean
+.PHONY: help demo lecture test lint bench stress agreement docs gallery wheel setup clean
 
 VENV := .venv
 RIVALS := .venv-bench
@@ -11,11 +11,14 @@ CARGO_ALL := --locked --profile demo
 SOURCES := pyproject.toml constraints.txt Cargo.toml Cargo.lock $(shell find crates -name '*.rs' -o -name Cargo.toml)
 
 help: ## this list
-	@grep -hE '^[a-z]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):.*## /  make \1\t/' | expand -t 14
+	@grep -hE '^[a-z]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):.*## /  make \1\t/' | expand -t 18
 
 demo: $(VENV)/.ok ## render a first picture
 	@mkdir -p pictures
 	@$(BIN)/antumbra render antumbra -o pictures/antumbra.png
+
+lecture: $(VENV)/.ok ## render the whole lecture at full size as lecture/index.html, one file (QUICK=--quick: coarse)
+	@$(BIN)/antumbra lecture --single-file -o lecture $(QUICK)
 
 test: $(VENV)/.dev ## every test, Rust and Python
 	@tools/run_tests.sh
