@@ -55,7 +55,11 @@ def _parts(run):
         Strip("i", "Which", frames, labels=("side", "picture"), tells=2),
         Key([Entry("var(--umbra)", "Umbra", "none", drawing, 0), Entry("#fff", "Lit", "all", always="outside")], "i"),
         Row([picture, picture, picture, two], note="Three alike."),
-        Tabs("sampler", "Sampler", [Panel(w, w, [Row([picture, picture])]) for w in ("random", "owen")]),
+        Tabs(
+            "sampler",
+            "Sampler",
+            [Panel(w, w, [Row([picture, picture])], w == "told") for w in ("random", "owen", "told")],
+        ),
         wide,
         Linked("ray", picture, rays.done("Two rays."), table),
         Plot(axes, "95 %.", Table(["N", "RMSE"], [["1", "1.00"]], "Errors.", foot=["slope", "−0.5"])),

@@ -94,8 +94,20 @@ def test_tabs_are_one_stop_and_answer_to_arrows(open_page):
     chosen = tab.locator("#one [role=tab][aria-selected=true]")
     assert chosen.inner_text() == "owen" and address(tab) == "#one/sampler=owen"
     assert tab.evaluate("document.activeElement.innerText") == "owen"
-    assert tab.locator("#one [role=tab][tabindex='-1']").count() == 1
+    assert tab.locator("#one [role=tab][tabindex='-1']").count() == 2
     assert tab.locator("#one .pan:visible").count() == 1
+
+
+def test_a_tab_that_says_the_answer_comes_with_it(open_page):
+    for address_, step in (("#one", 0), ("#slides/one/step=1", 1)):
+        tab = open_page(address_)
+        late = tab.locator("#one [role=tab]", has_text="told")
+        assert not late.is_visible() and tab.locator("#one [role=tab]:visible").count() == 2
+        if step:
+            tab.keyboard.press(" ")
+        else:
+            tab.locator("#one .q button").first.click()
+            assert late.is_visible()
 
 
 def test_a_row_and_its_ray_are_one_thing(open_page):
@@ -148,7 +160,7 @@ def test_the_address_keeps_all_answers_while_the_button_is_pressed(open_page):
     tab = open_page("#/answers")
     tab.evaluate("location.hash = '#two'")
     tab.wait_for_function("location.hash == '#two/answers'")
-    tab.locator("#one [role=tab]").last.click()
+    tab.locator("#one [role=tab]").nth(1).click()
     assert address(tab) == "#one/answers/sampler=owen"
     tab.locator("#b-answers").click()
     assert address(tab) == "#one/sampler=owen" and not tab.locator("#two .claims").is_visible()
@@ -296,7 +308,7 @@ def test_other_keys_go_on_from_a_tab_on_a_slide(open_page, key, to):
 
 def test_a_tab_that_the_mouse_pressed_gives_the_keys_back(open_page):
     tab = open_page("#slides/one/step=1")
-    tab.locator("#one [role=tab]").last.click()
+    tab.locator("#one [role=tab]").nth(1).click()
     assert tab.locator("#one [role=tab][aria-selected=true]").inner_text() == "owen"
     tab.keyboard.press("ArrowRight")
     assert "step=2" in address(tab)
@@ -341,8 +353,8 @@ def test_drawings_are_quieter_in_the_dark_and_still_read(open_page, scheme, brig
 def test_without_script_everything_is_there(open_page):
     tab = open_page(java_script_enabled=False)
     assert tab.locator("#one .frames > li:visible").count() == 3
-    assert tab.locator("#one .pan:visible").count() == 2
-    assert tab.locator("#one .pn").all_inner_texts() == ["random", "owen"]
+    assert tab.locator("#one .pan:visible").count() == 3
+    assert tab.locator("#one .pn").all_inner_texts() == ["random", "owen", "told"]
     for slot in (".ans", ".claims", ".draws svg.on"):
         assert tab.locator(f"#one {slot}").is_visible()
     assert not tab.locator("#one .slide").is_visible()

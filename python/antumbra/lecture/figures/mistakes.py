@@ -45,7 +45,9 @@ def _panel(run: Run, mistake: Mistake) -> Panel:
         run.map(np.log2(share), f"The wrong picture has {span} the light.", f"wrong over right: {span}", name=f"{mistake.name}-share",
                 ramp="signed", low=-4.0, high=4.0, ticks={-4: "1/16", -2: "1/4", 0: "1", 2: "4", 4: "16"}, unit="times"),
     ])  # fmt: skip
-    return Panel(mistake.name, mistake.name, [row, Formula([(mistake.latex, mistake.spoken)], mistake.why)])
+    return Panel(
+        mistake.name, mistake.name, [row, Formula([(mistake.latex, mistake.spoken)], mistake.why)], late=True
+    )
 
 
 def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:

@@ -40,7 +40,7 @@ def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
     tabs = tabs_of("show", "What is shown", {
         "picture": ("One picture", pictures), "mean": ("Mean − truth", off),
         "density": ("Density", densities),
-    })  # fmt: skip
+    }, late=["mean"])  # fmt: skip
     rows = {f"{name}: {words}": (found[name], found[f"noise-{name}"]) for name, words in names}
     note = f"{count} independent pictures of 4 rays a pixel each; maps of the mean in % of white, table in % of the light. The truth is made by random directions (hemisphere)."
     head = ("density", "mean − truth", "variance, uniform = 1")

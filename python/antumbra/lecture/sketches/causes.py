@@ -33,7 +33,7 @@ def causes(run: Run, found: Mapping[str, Quantity], one: Picture) -> Tabs:
         return run.map(
             root,
             f"{'Root of the covariance, with its sign,' if signed else 'Standard deviation'} by pixel, {words}{share}.",
-            f"{words}{share}",
+            words,
             name=name.replace("_", "-"),
             ramp=ramp,
             low=low,
@@ -43,9 +43,11 @@ def causes(run: Run, found: Mapping[str, Quantity], one: Picture) -> Tabs:
         )
 
     total = shown("whole", "all together")
-    rows = {name: (words, [one, total, shown(name, words)]) for name, words in SQUARES.items()}
+    # The answer is not the first that is seen.
+    order = sorted(SQUARES, key=lambda name: name == "light")
+    rows = {name: (SQUARES[name], [one, total, shown(name, SQUARES[name])]) for name in order}
     pairs = [shown(name, words, signed=True) for name, words in PAIRS.items()]
-    maps = tabs_of("cause", "Cause of the noise", {**rows, "covariances": ("covariances", pairs)})
+    maps = tabs_of("cause", "Cause of the noise", {**rows, "covariances": ("covariances", pairs)}, ["light"])
     return replace(maps, panels=[*maps.panels, Panel("known", "known", [half_hidden(found)])])
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -37,9 +37,15 @@ def table_of(
     return Table(head, text, caption, foot, fine, note)
 
 
-def tabs_of(key: str, label: str, rows: Mapping[str, tuple[str, Sequence[Picture]]]) -> Tabs:
-    """Tabs of one row of pictures each: by value, the name on the button and the pictures."""
-    return Tabs(key, label, [Panel(value, name, [Row(cells)]) for value, (name, cells) in rows.items()])
+def tabs_of(
+    key: str,
+    label: str,
+    rows: Mapping[str, tuple[str, Sequence[Picture]]],
+    late: Collection[str] = (),
+) -> Tabs:
+    """Tabs of one row of pictures each: by value, the name on the button and the pictures; `late` ones answer."""
+    panels = [Panel(value, name, [Row(cells)], value in late) for value, (name, cells) in rows.items()]
+    return Tabs(key, label, panels)
 
 
 def curve_of(

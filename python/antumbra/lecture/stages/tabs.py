@@ -10,12 +10,16 @@ from antumbra.lecture.stages.base import Part
 
 @dataclass(frozen=True)
 class Panel(Part):
-    """One tab: its `value` in the address (a word), its `name` on the button, its parts."""
+    """One tab: its `value` in the address (a word), its `name` on the button, its parts.
+
+    `late`: it says the answer, so its button comes with it.
+    """
 
     kind = "panel"
     value: str
     name: str
     parts: Sequence[Part]
+    late: bool = False
 
 
 @dataclass(frozen=True)
