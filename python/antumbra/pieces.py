@@ -37,9 +37,16 @@ class LightsFound(NamedTuple):
     pdf: NDArray[np.float32]
 
 
+# What light points heed; `threads` changes the time alone.
+_HEEDED = ("lights", "light_points", "threads")
+
+
 def _words(options: dict[str, Any]) -> list[tuple[str, str]]:
     """Options of light points; one light is drawn for each receiver, never all of them."""
     words = settings.words(options)
+    for option in words.keys() - {*_HEEDED}:
+        own = ": the scene's own lights are asked" if option in ("light", "environment") else ""
+        raise OptionError(f"{option} is not heeded here{own}; {', '.join(_HEEDED)} are")
     if words.get("lights") == "all":
         raise OptionError(
             'lights = all: one light is drawn here; "uniform", "power" or "contribution" chooses it'
@@ -77,8 +84,8 @@ class Pieces:
         Light that arrives = f · radiance · cos θ / pdf, if the segment to the target is free. Where no light can
         reach, radiance is 0, pdf and distance are 1; lights without size have p(light) as pdf and their irradiance as
         radiance.
-        Options: `lights` (how one is chosen: "uniform", which is the default here, "power", "contribution") and
-        `light_points`.
+        Options: `lights` (how one is chosen: "uniform", which is the default here, "power", "contribution"),
+        `light_points`, `threads`; others raise OptionError.
         """
         if u is None:
             raise TypeError("u is missing: three numbers in [0, 1) per point are needed, (N, 3)")
@@ -98,7 +105,7 @@ class Pieces:
 
         Gives `radiance` L_e (N, 3) of what the ray meets first, 0 where that is no light, and `pdf` (N,) [1/sr]: how
         densely `sample_light` with the same options draws that direction, 0 where it finds none. Lights without size
-        are never found.
+        are never found. Options are those of `sample_light`.
         """
         if directions is None:
             raise TypeError("directions are missing: one per point is needed, (N, 3)")

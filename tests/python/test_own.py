@@ -88,6 +88,17 @@ def test_one_light_is_drawn_never_all():
         am.builtin("pillars").sample_light([(0.0, 1, 0)], (0, 1.0, 0), np.full((1, 3), 0.5), lights="all")
 
 
+@pytest.mark.parametrize(
+    ("option", "value"), [("light", "key"), ("environment", "none"), ("shadow_rays", 4), ("masks", "opaque")]
+)
+@pytest.mark.parametrize("query", ["sample_light", "find_light"])
+def test_what_light_points_do_not_heed_is_refused(query, option, value):
+    ask = getattr(am.builtin("pillars"), query)
+    with pytest.raises(am.OptionError, match=f"{option} is not heeded here.*light_points, threads are"):
+        ask([(0.0, 1, 0)], (0, 1.0, 0), np.full((1, 3), 0.5), **{option: value})
+    ask([(0.0, 1, 0)], (0, 1.0, 0), np.full((1, 3), 0.5), threads=1, **{option: None})
+
+
 def test_numbers_are_other_ones_at_each_call_and_the_same_in_another_render():
     asked = []
 
