@@ -186,7 +186,7 @@ class Lecture:
                 "number": chapter.number,
                 "title": chapter.title,
                 "figures": [
-                    {"number": each.number, "name": name, "here": name in here}
+                    {"number": each.number, "name": name, "title": each.title, "here": name in here}
                     for name, each in catalog.ordered().items()
                     if each.chapter == chapter.number
                 ],

@@ -47,7 +47,7 @@ FIGURE = Figure(
         Claim("In the limit the contact line alone predicts it: ∮ AO² ds / 12 n.", "line", near=1.0, within=RISE,
               measured=f"squared error over that, n = {BODY_CELLS[1]} and {BODY_CELLS[2]}: {{line}}"),
         Claim("The mesh cut along that line converges again.", "along", below=-1.0, measured="slope {along}, uncut {body}"),
-        Claim(f"On the floor of a cube, 2 × 2 vertices are off by {CUBE[1]:.4f}, 3 × 3 by {CUBE[2]:.4f}.", "cube", near=1.0, within=NOISE,
+        Claim(f"On the floor of a cube, one cell is off by {CUBE[1]:.4f}, 2 × 2 cells by {CUBE[2]:.4f}.", "cube", near=1.0, within=NOISE,
               measured="the farther one: {cube} of it"),
     ],
 )  # fmt: skip

@@ -1,4 +1,4 @@
-"""Figure 12: four densities for the same light; three are right, one leaves out a part and looks as clean."""
+"""Figure 12: four densities for the same light; three are right, one leaves out a part and is no noisier."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
 FIGURE = Figure(
     number=12, chapter=4, title="Four ways to draw a point", seconds=Pick(5, 60),
     question=Question("One of four densities never draws a quarter of the light. What does its picture show?",
-                      ("more noise", "a clean picture, too dark", "dark spots"), 1, ("gap", "noise-hole")),
+                      ("more noise", "too little light, no more noise", "dark spots"), 1, ("gap", "noise-hole")),
     variants=[
         Variant("truth", SCENE, CENTRED | {"estimator": "mis", "shadow_rays": Pick(64, 512), "sampler": "owen"}, truth=True),
         # The means are judged by directions, which know nothing of points on lights.

@@ -48,9 +48,9 @@ def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
     white, errors = run.white("truth"), _errors(run)
     smooth = reference(run, "pillars with soft shadows and smooth edges", white)
     tabs = Tabs("sampler", "Sampler", [
-        *(Panel(s, s, [Row([*counts(run, errors, s, SHOWN, white), smooth])]) for s in FITTED),
         Panel("two", "two 2-D points", [linked(run, "two", "pixel and light point drawn on their own")]),
-        Panel("one", "one 4-D point", [linked(run, "one", "pixel and light point halves of one 4-D point")]),
+        Panel("one", "one 4-D point", [linked(run, "one", "pixel and light point halves of one 4-D point")], late=True),
+        *(Panel(s, s, [Row([*counts(run, errors, s, SHOWN, white), smooth])]) for s in FITTED),
     ])  # fmt: skip
     svg = error_curves(
         [errors.curve(s, FITTED) for s in FITTED], x_title="viewing rays per pixel, N", y_title="RMSE, random at N = 1 is 1", chosen="random",

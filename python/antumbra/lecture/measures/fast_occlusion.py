@@ -62,7 +62,7 @@ def asked(scene: Scene, receivers: Receivers, radius: float, count: int) -> Aske
             seconds[turn, k] = time.perf_counter() - began
     masks = [found[method].blocked for method in METHODS]
     differ = sum(int(np.sum(mask != masks[0])) for mask in masks[1:])
-    note = f"median and range of {_CALLS} calls on all cores, the methods in turn"
+    note = f"median of {_CALLS} calls on all cores, the methods in turn"
     rates = {m: median_of(masks[0].size / seconds[:, k] / 1e6, "M/s", note) for k, m in enumerate(METHODS)}
     faster = {m: median_of(seconds[:, 0] / seconds[:, k], "", note) for k, m in enumerate(METHODS)}
     return Asked(differ, 2 * masks[0].size, found["receivers"], rates, faster)

@@ -136,6 +136,4 @@ def cost(run: Run, options: dict[str, Any], count: int = 50) -> Quantity:
     )  # fmt: skip
     taken = [[scene.render(**look, **way, seed=n).seconds for way in ways] for n in range(_CALLS)]
     over = np.divide(*np.array(taken).T)
-    return median_of(
-        count * (over - 1) / (count - over), note=f"median and range of {_CALLS} pictures in turn"
-    )
+    return median_of(count * (over - 1) / (count - over), note=f"median of {_CALLS} pictures in turn")

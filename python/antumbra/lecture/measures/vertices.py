@@ -24,7 +24,7 @@ Floats = NDArray[np.float64]
 # Cells along the edge of the box, empty, with the body, and with the mesh cut along its edges.
 SMOOTH_CELLS, BODY_CELLS, CUT_CELLS = [3, 6, 12], [8, 16, 32], [3, 6, 12]
 CELLS = {"empty": SMOOTH_CELLS, "body": BODY_CELLS, "along": CUT_CELLS}
-# RMS errors of 2 × 2 and 3 × 3 vertices on the floor of a cube (quadrature of the closed form).
+# RMS errors of one cell and of 2 × 2 on the floor of a cube (quadrature of the closed form).
 CUBE = {1: 0.06542137235235, 2: 0.01603618598543}
 # Places of the body, rays of a vertex and of a point, points along the edge of the floor.
 PLACES, _RAYS, _SIDE = Pick(24, 32), Pick(128, 256), Pick(32, 64)
@@ -177,7 +177,7 @@ def errors_of_meshes(run: Run) -> dict[str, Quantity]:
     `empty-n`, `body-n`, `along-n`: RMS error with n cells along the edge, in the empty box, with a body on the floor,
     and with the mesh cut along its edges; `body`, `along`: slopes against n; `halved`: the factor of the error for
     half the edge, `quarter`: in the empty box; `line`: squared error over what the contact line alone predicts;
-    `cube`: error of 2 × 2 and of 3 × 3 vertices in the cube over the exact one, that which is farther off.
+    `cube`: error of one cell and of 2 × 2 in the cube over the exact one, that which is farther off.
     """
     empty = {f"empty-{n}": _empty(run, n, TRAY) for n in SMOOTH_CELLS}
     cube = farthest_from_one(ratio(_empty(run, n, 1.0), Quantity(known)) for n, known in CUBE.items())

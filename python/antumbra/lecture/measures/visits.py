@@ -19,7 +19,7 @@ from antumbra.scene import Scene
 RAYS = {True: "blocked", False: "free"}
 COUNTS = ("any_boxes", "closest_boxes", "any_primitives", "closest_primitives")
 # Of each kind of hit in turn, to know its rate.
-_CALLS = 9
+_CALLS = 21
 # Closest hit ends this far before the light, which it would meet otherwise.
 _SHORT = 0.9999
 
@@ -100,7 +100,7 @@ def _rates(scene: Scene, asked: Asked, blocked: bool) -> dict[str, Quantity]:
     """Rates of any hit and of closest hit on all cores [million rays/s], and the one over the other: `faster`.
 
     Both kinds are called in turn, so that whatever else the machine does meets both, and the ratio is taken call by
-    call; medians, with the range of the calls.
+    call; medians.
     """
     some = asked.visits.blocked == blocked
     receivers, targets = asked.receivers[some], asked.targets[some]
@@ -113,7 +113,7 @@ def _rates(scene: Scene, asked: Asked, blocked: bool) -> dict[str, Quantity]:
     turns = np.array([[_seconds(call) for call in calls] for _ in range(1 + _CALLS)])[1:]
     rates, note = (
         len(targets) / turns / 1e6,
-        f"median and range of {_CALLS} calls on all cores, both kinds in turn",
+        f"median of {_CALLS} calls on all cores, both kinds in turn",
     )
     return {
         "any_rate": median_of(rates[:, 0], "M/s", note),

@@ -29,7 +29,7 @@ def lamps(run: Run, counts: Sequence[int]) -> Strip:
         each = rays.shadow_rays / (rays.width * rays.height)
         says = f"{k:,} lamp{'s' * (k > 1)}: 1 ray, 1 ray, {each:.0f} rays a pixel"
         frames.append(Frame(str(k), says, pictures, short=f"{k:,}"))
-    labels = ("one ray, alike", "one ray, by contribution", "a ray to each")
+    labels = ("one ray, alike", "by contribution", "a ray to each")
     note = (
         "One ray in all goes to a lamp that is drawn: all alike, or by its contribution, the light that it would give "
         "unshadowed. A lamp below the horizon gets no ray."

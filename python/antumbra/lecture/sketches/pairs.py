@@ -59,7 +59,6 @@ def linked(run: Run, way: str, says: str) -> Linked:
     rows = [[names[n], "free" if of.free[n] else "blocked", f"{of.brings[n]:.3f}"] for n in order]
     table = Table(
         ("pair", "V", "brings"), rows, f"{SET} samples of the pixel, {says}",
-        ("different pairs", "", f"{of.different} of 16"),
         note="What one sample says of the pixel [W·m⁻²·sr⁻¹]. Point at a row or at a dot.",
     )  # fmt: skip
     alt = f"{SET} samples, {says}: {of.different} of 16 pairs of quarters of pixel and light."

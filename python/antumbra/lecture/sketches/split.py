@@ -15,7 +15,7 @@ from antumbra.lecture.quantity import Quantity
 from antumbra.lecture.run import Run
 from antumbra.lecture.stages import Frame, Panel, Row, Strip, Table
 from antumbra.lecture.stages.quantities import curve_of, table_of
-from antumbra.study.plot import error_curves
+from antumbra.study.plot import Curve, error_curves
 
 
 def splits(run: Run, found: Mapping[str, Quantity], white: float) -> Panel:
@@ -91,7 +91,7 @@ def _split(advised: float) -> str:
 
 
 def noise_plot(run: Run, found: Mapping[str, Quantity], white: float) -> str:
-    """Noise of each split at `RAYS` rays, and the lines of theory."""
+    """Error of each split at `RAYS` rays, the lines of theory, and the error through the centre of an edge."""
     shadow = [RAYS / v - 1 for v in VIEWING]
     curves = []
     for where in reversed(CROPS):
@@ -99,10 +99,14 @@ def noise_plot(run: Run, found: Mapping[str, Quantity], white: float) -> str:
         exact = np.vectorize(lambda n, of=of: np.sqrt(of.variance(RAYS / (1 + n), n).value) / white)
         marks = [found[f"noise-{key_of(v)}-{where}"] for v in VIEWING]
         curves.append(curve_of(where, shadow, marks, exact, f"N* = {_split(of.advised(cost_of(found)))}"))
+    centred = found[f"error-centre{RAYS - 1}-edge"]
+    low, high = centred.interval
+    curves.append(Curve("edge, centred", [RAYS - 1], [centred.value], [low], [high], hollow=[True]))
     return error_curves(
-        curves, x_title="shadow rays of each viewing ray, N", y_title=f"noise over white, {RAYS} rays",
+        curves, x_title="shadow rays of each viewing ray, N", y_title=f"error over white, {RAYS} rays",
         chosen="penumbra", x_ticks=[1, 4, 19, 49, 199], y_ticks=[0.2, 0.1, 0.05, 0.02, 0.01],
-        label="Noise against shadow rays for each viewing ray: at the edge it grows, in the penumbra it first falls.",
+        label="Error against shadow rays for each viewing ray: at the edge it grows, and is largest for the one ray "
+        "through the centre; in the penumbra it first falls.",
     )  # fmt: skip
 
 
@@ -112,7 +116,7 @@ def plot_note(run: Run, found: Mapping[str, Quantity]) -> str:
     costs = f"{_costs(found)}; by rays counted, as drawn, {least}" if "took" in found else _costs(found)
     return (
         f"Marks: measured, 95 % of {count} replicates. Lines: √((σ_p² + σ_s²/N) / V), both variances measured apart. "
-        f"N*: {costs}."
+        f"Hollow: with its bias. N*: {costs}."
     )
 
 

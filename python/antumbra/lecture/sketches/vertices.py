@@ -94,11 +94,11 @@ def finer(run: Run, cells: Sequence[int], tells: int) -> Strip:
             off.append(math.sqrt(float(((values - _truth(run))[floor] ** 2).mean())))
             alt = f"{n} cells along the edge, {name}: {words}."
             shown.append(run.picture(_picture(run, values), alt, name=f"{name}-{n}", white=1.0))
-        says = f"{n + 1} × {n + 1} vertices: off by {off[0]:.2f}, cut {off[1]:.2f}"
-        return Frame(str(n), says, [*shown, true], short=f"{n + 1} × {n + 1}")
+        says = f"{n} × {n} cells: off by {off[0]:.2f}, cut {off[1]:.2f}"
+        return Frame(str(n), says, [*shown, true], short=f"{n} × {n}")
 
     labels = ("even mesh", "cut along the body", "each pixel")
-    label, frames = "Cells along the edge of the floor", [frame(n) for n in cells]
+    label, frames = "Cells of the floor, a vertex at each corner", [frame(n) for n in cells]
     return Strip("cells", label, frames, labels, tells=cells.index(tells))
 
 
