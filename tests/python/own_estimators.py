@@ -102,6 +102,30 @@ def no_offset(scene, at, u):
     return f * s.radiance * (cosine(at, s.direction) * free / s.pdf)[:, None]
 
 
+def reaching(share):
+    """Shadow rays that end at `share` of the distance r."""
+
+    def estimator(scene, at, u):
+        s = scene.sample_light(at, u=u(3))
+        f = scene.brdf(at, at.wo, s.direction)
+        free = ~scene.occluded(at, directions=s.direction, max_distance=s.distance * share)
+        return f * s.radiance * (cosine(at, s.direction) * free / s.pdf)[:, None]
+
+    return estimator
+
+
+def above(step):
+    """Shadow rays that start a step above the surface, in scene units."""
+
+    def estimator(scene, at, u):
+        s = scene.sample_light(at, u=u(3))
+        f = scene.brdf(at, at.wo, s.direction)
+        free = ~scene.occluded(at.position + step * at.normal, s.target)
+        return f * s.radiance * (cosine(at, s.direction) * free / s.pdf)[:, None]
+
+    return estimator
+
+
 def one_lamp_of_many(scene, at, u):
     """p(light) is left out."""
     s = scene.sample_light(at, u=u(3))
@@ -109,6 +133,13 @@ def one_lamp_of_many(scene, at, u):
     f = scene.brdf(at, at.wo, s.direction)
     free = ~scene.occluded(at, s.target)
     return f * s.radiance * (cosine(at, s.direction) * free / s.pdf / count)[:, None]
+
+
+def even(scene, at, u):
+    """L = f_r L_e cos θ / p(ω), ω even over the hemisphere: few directions find a light."""
+    wi = toward(at.shading_normal, u(2), even=True)
+    light = scene.find_light(at, directions=wi).radiance
+    return scene.brdf(at, at.wo, wi) * light * (cosine(at, wi) * 2 * np.pi)[:, None]
 
 
 def even_over_cosine(scene, at, u):
@@ -146,7 +177,7 @@ def even_openness(scene, at, u):
     return 1.0 - scene.occluded(at, directions=toward(at.normal, u(2), even=True))
 
 
-RIGHT = [area, hemisphere, cubed, mis]
+RIGHT = [area, hemisphere, cubed, even, mis]
 # Each with words of what the check must say.
 WRONG = {
     "no cosine": (spoiled(lambda s, cos: 1 / np.maximum(cos, 1e-6)), "cos θ at the receiver is missing"),
@@ -164,6 +195,13 @@ WRONG = {
     "no shadow": (no_shadow, "V is missing"),
     "beyond the light": (beyond, "a wall behind the lamp"),
     "endless shadow rays": (endless, "blocked by the lamp itself"),
+    "to the light itself": (reaching(1.0), "end at r exactly"),
+    "almost to the light": (reaching(1 - 1e-6), "end at r exactly"),
+    "a little beyond the light": (reaching(1.001), "blocked by the lamp itself"),
+    "far before the light": (reaching(0.8), "end long before the light"),
+    "an offset of 2 cm": (above(0.02), "too large an offset"),
+    "an offset of half a metre": (above(0.5), "too large an offset"),
+    "an offset higher than a lamp": (above(1.2), "too large an offset"),
     "no offset": (no_offset, "false shadow"),
     "p(light)": (one_lamp_of_many, "p(light) is missing"),
     "own albedo": (grey, "albedo"),

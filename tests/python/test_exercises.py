@@ -18,12 +18,19 @@ FOLDER = Path(exercises.__file__).parent
 LINES = {
     "1_offset.py": (
         "start = at",
-        {"start = at.position - 1e-3 * at.normal": "no lamp gives light"},
+        {
+            "start = at.position - 1e-3 * at.normal": "no lamp gives light",
+            "start = at.position + 0.05 * at.normal": "too large an offset",
+        },
         "false shadow",
     ),
     "2_t_max.py": (
         "reach = s.distance * (1 - 1e-4)",
-        {"reach = s.distance * 1.5": "blocked by the lamp itself", "reach = s.distance * 0.3": "wall"},
+        {
+            "reach = s.distance * 1.5": "blocked by the lamp itself",
+            "reach = s.distance * 0.3": "end long before the light",
+            "reach = s.distance": "end at r exactly",
+        },
         "blocked by the lamp itself",
     ),
     "3_cos_light.py": (

@@ -81,6 +81,11 @@ def _wall(scene: Callable[[], Scene], corners: list[tuple[float, float, float]])
 _OVERHEAD = LAMPS["lamp overhead"]
 _EDGE = [(-3.0, 1.0, -3.0), (0.1, 1.0, -3.0), (0.1, 1.0, 3.0), (-3.0, 1.0, 3.0)]
 _SEEN = [np.array([x, 2.0, z]) for x, z in [(0.2, -0.4), (0.4, -0.4), (0.4, 0.4), (0.2, 0.4)]]
+# A plate close above the floor, its edge at x = −0.0125, and a wall close below the lamp, its edge at z = 0.09: of the
+# lamp x > −0.25, z < 0.1 is seen. From a start above the floor the plate hides less, from above it nothing.
+_CLOSE = [(-3.0, 0.1, -3.0), (-0.0125, 0.1, -3.0), (-0.0125, 0.1, 3.0), (-3.0, 0.1, 3.0)]
+_HIGH = [(-3.0, 1.8, 0.09), (3.0, 1.8, 0.09), (3.0, 1.8, 3.0), (-3.0, 1.8, 3.0)]
+_LEFT = [np.array([x, 2.0, z]) for x, z in [(-0.25, -0.4), (0.4, -0.4), (0.4, 0.1), (-0.25, 0.1)]]
 _BEHIND = [(-3.0, 2.6, -3.0), (3.0, 2.6, -3.0), (3.0, 2.6, 3.0), (-3.0, 2.6, 3.0)]
 _BRIGHT = Lamp((1.2, 1.8, 0.4), (-0.5, -1, 0), 0.7, radiance=6.0)
 
@@ -134,6 +139,20 @@ _LIT = [
         _at_origin,
         0.3 / math.pi * irradiance(_OVERHEAD),
         hints=((_ANY, "the surface's own albedo is not heeded: f_r comes from scene.brdf"),),
+    ),
+    Case(
+        "plate close above the floor",
+        _wall(_wall(_under(_OVERHEAD), _CLOSE), _HIGH),
+        _at_origin,
+        RHO / math.pi * lambert(_LEFT),
+        # Without the wall alone the share is 1.6, without V 2.
+        hints=(
+            (
+                (1.0, 1.55),
+                "too large an offset: shadow rays start so far above the surface that what lies close blocks less",
+            ),
+            ((1.55, 1.7), "shadow rays end long before the light (t_max): a wall close to it is not found"),
+        ),
     ),
     Case(
         "lamp partly hidden",
@@ -223,7 +242,9 @@ _OCCLUDED = [
 _NO_LAMP = (
     "no lamp gives light: a shadow ray that does not end at the light (t_max) is blocked by the lamp itself"
 )
+_OWN_LAMP = "the lamp blocks its own shadow rays: they end at r exactly, which is rounded; t_max must be less"
 _NO_OPENING = "every pit is found closed: rays that should leave through its opening are blocked"
+_SOME_OPENING = "some pits are found closed: rays that should leave through their opening are blocked"
 
 
 class Kind(NamedTuple):
@@ -233,15 +254,21 @@ class Kind(NamedTuple):
     albedo: float
     scenes: tuple[str, ...]
     estimator: str
-    # What is wrong where no lamp, or no pit, gives any light.
+    # What is wrong where no lamp, or no pit, gives any light, and where some give none.
     dark: str
+    darkened: str
 
 
 KINDS = {
-    "light": Kind(_LIT, RHO, ("pillars", "cornell-box"), "mis", _NO_LAMP),
+    "light": Kind(_LIT, RHO, ("pillars", "cornell-box"), "mis", _NO_LAMP, _OWN_LAMP),
     # Light that comes from surfaces alone: what the area form sees.
     "lamps": Kind(
-        [case for case in _LIT if case.name != "furnace"], RHO, ("pillars", "cornell-box"), "mis", _NO_LAMP
+        [case for case in _LIT if case.name != "furnace"],
+        RHO,
+        ("pillars", "cornell-box"),
+        "mis",
+        _NO_LAMP,
+        _OWN_LAMP,
     ),
-    "occlusion": Kind(_OCCLUDED, 1.0, ("pillars",), "ambient-occlusion", _NO_OPENING),
+    "occlusion": Kind(_OCCLUDED, 1.0, ("pillars",), "ambient-occlusion", _NO_OPENING, _SOME_OPENING),
 }
