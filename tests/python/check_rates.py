@@ -47,7 +47,7 @@ def repeated(
         truth = float(values.mean()) if about_itself else case.truth
         cases.append(case._replace(scene=cache(case.scene), truth=truth))
         stored.append(values)
-    shown = {name: _Shown(name, estimator, round(STORED["picture"] * share), random) for name in kind.scenes}
+    shown = {name: _Shown(name, estimator, share, random) for name in kind.scenes}
     turn = iter(())
 
     def again(*_: Any) -> Any:
@@ -78,11 +78,12 @@ def _replaced(kind: Any, shown: dict[str, _Shown], again: Callable[..., Any]) ->
 class _Shown:
     """A built-in scene whose pictures are rendered beforehand, about the mean of the stored answers."""
 
-    def __init__(self, name: str, estimator: Any, times: int, random: Any) -> None:
+    def __init__(self, name: str, estimator: Any, share: float, random: Any) -> None:
         self._scene = scene = am.builtin(name)
         self.camera_rays, self.closest_hit = scene.camera_rays, scene.closest_hit
         look = {"size": asked._SIZE, "viewing_rays": asked._RAYS, "viewing": "centre", "sampler": "random"}
-        made = [scene.render(**look, estimator="mis", seed=s, aov="emission") for s in range(PICTURES)]
+        times, pictures = round(STORED["picture"] * share), round(PICTURES * share)
+        made = [scene.render(**look, estimator="mis", seed=s, aov="emission") for s in range(pictures)]
         dark = ~made[0].aov["emission"].any(axis=2).ravel()
         origins, directions = scene.camera_rays(asked._SIZE)
         (rows,) = (np.isfinite(scene.closest_hit(origins, directions).t) & dark).nonzero()
@@ -101,7 +102,7 @@ class _Shown:
         ]
 
     def render(self, *, seed: int, **_: Any) -> Any:
-        return self._made[seed % PICTURES]
+        return self._made[seed % len(self._made)]
 
     def redrawn(self, random: Any) -> Any:
         chosen = random.integers(0, self._values.shape[1], (len(self._values), asked._RAYS))
