@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from antumbra.explanation import Explanation
     from antumbra.hit import Hit
     from antumbra.image import Image, load_image
+    from antumbra.rays import trimesh_ray
     from antumbra.scene import Scene, builtin, builtins, load
 
 __all__ = [
@@ -49,6 +50,7 @@ __all__ = [
     "materials",
     "shapes",
     "study",
+    "trimesh_ray",
 ]
 
 # Where each name lives. Imported when first asked for, because `import antumbra` must not wait for NumPy.
@@ -64,6 +66,7 @@ _HOME = {
     "check": "checks",
     "load": "scene",
     "load_image": "image",
+    "trimesh_ray": "rays",
 }
 _MODULES = {"lights", "materials", "shapes", "study"}
 

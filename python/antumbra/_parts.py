@@ -1,4 +1,4 @@
-"""What people add to a scene, checked: one of our kinds, a mesh of another library, a transform, a lat-long picture."""
+"""What people add to a scene, checked: one of our kinds, a transform, a lat-long picture."""
 
 from __future__ import annotations
 
@@ -26,16 +26,6 @@ def one_of(name: str, value: Any, kinds: UnionType) -> str:
         kind = f"{home}.{value.__name__}"
         raise TypeError(f"{name} is the class {kind}: one of its kind is needed, as {kind}(…)")
     raise TypeError(f"{name} is {shown(value)}: {wanted}")
-
-
-def mesh_of(mesh: Any) -> tuple[Any, Any]:
-    """Vertices and faces of a trimesh or Open3D mesh."""
-    for faces in ("faces", "triangles"):
-        if hasattr(mesh, "vertices") and hasattr(mesh, faces):
-            return np.asarray(mesh.vertices), np.asarray(getattr(mesh, faces))
-    raise TypeError(
-        "faces are missing: give (F, 3) whole numbers, or a mesh with .vertices and .faces or .triangles"
-    )
 
 
 def matrix(transform: ArrayLike) -> NDArray[np.float64]:

@@ -15,7 +15,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from antumbra import _core, own, settings
 from antumbra._arrays import indices, matching, per_row, places, rows, starts
-from antumbra._parts import lat_long, matrix, mesh_of, one_of
+from antumbra._meshes import mesh_of
+from antumbra._parts import lat_long, matrix, one_of
 from antumbra._values import Color, Vector, color, number, shown, text, vector
 from antumbra.anatomy import Anatomy
 from antumbra.effects import idle
@@ -124,13 +125,16 @@ class Scene(Anatomy, Openings, Pieces):
         """Adds triangles.
 
         `vertices` (V, 3) float in scene units; `faces` (F, 3) whole numbers, counter-clockwise from the front; or a
-        trimesh or Open3D mesh in place of both. `emission`: radiance L_e of the front, one number or three;
-        `transform` (4, 4): object to world; `normals` (V, 3): shading normals, flat without.
+        mesh of trimesh, Open3D or PyVista in place of both, with the vertex normals that it holds (docs/bridges.md).
+        `emission`: radiance L_e of the front, one number or three; `transform` (4, 4): object to world; `normals`
+        (V, 3): shading normals, flat without.
 
-        Raises ValueError or TypeError for another shape or kind of number, or an index out of range.
+        Raises ValueError or TypeError for another shape or kind of number, an index out of range, or an object
+        without faces.
         """
         if faces is None:
-            vertices, faces = mesh_of(vertices)
+            vertices, faces, held = mesh_of(vertices)
+            normals = held if normals is None else normals
         vertices = rows("vertices", vertices)
         corners = indices("faces", faces, 3, len(vertices), "vertex")
         if normals is not None:

@@ -257,19 +257,6 @@ def test_an_estimate_acts_as_its_array(floor):
         _ = estimate.nothing
 
 
-def test_meshes_of_other_libraries_are_taken():
-    class Trimesh:
-        vertices, faces = SQUARE, FACES
-
-    class Open3D:
-        vertices, triangles = SQUARE.tolist(), FACES.tolist()
-
-    for mesh in (Trimesh(), Open3D()):
-        scene = am.Scene()
-        scene.add_mesh(mesh)
-        assert scene.occluded([[0.0, 1, 0]], [[0.0, -1, 0]])[0]
-
-
 def test_every_light_shape_and_material_is_made():
     scene = am.Scene()
     m, s = am.materials, am.shapes

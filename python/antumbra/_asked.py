@@ -1,0 +1,131 @@
+"""A mesh that is asked about rays and points: in single precision for the core, in double as it was given."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from antumbra._arrays import indices, rows
+from antumbra._boxes import Boxes
+from antumbra._crossings import crossings
+from antumbra._inside import inside, is_closed
+from antumbra._law import cross, dot, minus, vectors
+from antumbra._meshes import Triangles
+from antumbra.scene import Scene
+
+Doubles = NDArray[np.float64]
+Singles = NDArray[np.float32]
+Index = NDArray[np.int64]
+
+# A start that lies farther from the mesh than so many of its sizes is drawn up to it.
+FAR = 4.0
+# Farther than this, in sizes of the mesh, a place does not move when it is computed again in double precision.
+SHARP = 2.0**-18
+
+
+class Rays(NamedTuple):
+    """Rays relative to the mesh's origin, (N, 3) each: as given, and as the core takes them."""
+
+    origins: Doubles
+    directions: Doubles
+    starts: Singles
+    along: Singles
+
+
+class Asked:
+    """The triangles of one mesh, with the scene and the trees that questions need."""
+
+    def __init__(self, mesh: Triangles) -> None:
+        """Raises ValueError or TypeError for arrays that are no triangles."""
+        self._vertices = rows("vertices", mesh.vertices).astype(np.float64)
+        self._faces = indices("faces", mesh.faces, 3, len(self._vertices), "vertex").astype(np.int64)
+        self.count = len(self._faces)
+        low, high = self._vertices.min(axis=0), self._vertices.max(axis=0)
+        # A coarse grid: coordinates that single precision holds lose nothing when such a number is taken from them.
+        step = 2.0 ** np.ceil(np.log2(2 * np.max(high - low))) if np.any(high > low) else 1.0
+        self._origin = np.round((low + high) / 2 / step) * step
+        self._local = self._vertices - self._origin
+        self._single = self._local.astype(np.float32)
+        self._size = float(np.abs(self._local).max())
+        self._scene = Scene()
+        self._scene.add_mesh(self._single, self._faces)
+
+    @cached_property
+    def _single_corners(self) -> Doubles:
+        corners: Doubles = self._single.astype(np.float64)[self._faces]
+        return corners
+
+    @cached_property
+    def _single_boxes(self) -> Boxes:
+        return Boxes(self._single_corners)
+
+    @cached_property
+    def _corners(self) -> Doubles:
+        corners: Doubles = self._vertices[self._faces]
+        return corners
+
+    @cached_property
+    def _boxes(self) -> Boxes:
+        return Boxes(self._corners)
+
+    @cached_property
+    def _closed(self) -> bool:
+        return is_closed(self._vertices, self._faces)
+
+    def rays(self, origins: Doubles, directions: Doubles) -> Rays:
+        """Rays of the world. Directions are scaled by powers of two only, so that they keep all their digits."""
+        o, d = origins - self._origin, directions
+        _, exponents = np.frexp(np.abs(d).max(axis=1, initial=0.0))
+        d = np.ldexp(d, -exponents[:, None])
+        far = np.flatnonzero(np.abs(o).max(axis=1, initial=0.0) > FAR * self._size)
+        if len(far):
+            p, along = o[far], d[far]
+            length2 = np.einsum("ij,ij->i", along, along)
+            safe = np.where(length2 > 0, length2, 1.0)
+            # To where the line is nearest to the origin, less twice the radius of a ball around the mesh.
+            steps = -np.einsum("ij,ij->i", p, along) / safe - 2 * np.sqrt(3 / safe) * self._size
+            o[far] = p + np.maximum(steps, 0.0)[:, None] * along
+        return Rays(o, d, o.astype(np.float32), d.astype(np.float32))
+
+    def blocked(self, rays: Rays) -> NDArray[np.bool_]:
+        """Whether each ray meets something."""
+        return self._scene.occluded(rays.starts, directions=rays.along)
+
+    def closest(self, rays: Rays) -> tuple[Index, Doubles]:
+        """The face that each ray meets first, −1 for none, and t."""
+        hit = self._scene.closest_hit(rays.starts, rays.along)
+        return np.where(np.isfinite(hit.t), hit.primitive.astype(np.int64), -1), hit.t
+
+    def first_hits(self, rays: Rays) -> tuple[Index, Index, Doubles]:
+        """Ray, face and t of the first hit of each ray that meets something."""
+        faces, t = self.closest(rays)
+        met = np.flatnonzero(faces >= 0)
+        return met, faces[met], t[met]
+
+    def all_hits(self, rays: Rays) -> tuple[Index, Index, Doubles]:
+        """Ray, face and t of all hits, sorted by ray and distance; each place once."""
+        # Only rays that meet something go on.
+        met = np.flatnonzero(self.blocked(rays))
+        starts, along = rays.starts[met].astype(np.float64), rays.along[met].astype(np.float64)
+        which, faces, t = crossings(self._single_boxes, self._single_corners, starts, along)
+        return met[which], faces, t
+
+    def locations(self, rays: Rays, which: Index, faces: Index, t: Doubles) -> Doubles:
+        """(H, 3): where rays meet the planes of faces, in double precision where that is sharp."""
+        single = rays.starts[which] + t[:, None] * rays.along[which]
+        o, d = vectors(rays.origins[which]), vectors(rays.directions[which])
+        a, b, c = (vectors(self._local[self._faces[faces, k]]) for k in range(3))
+        normal = cross(minus(b, a), minus(c, b))
+        with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+            reach = dot(minus(a, o), normal) / dot(d, normal)
+            double = np.stack(o, axis=1) + reach[:, None] * np.stack(d, axis=1)
+            sharp = np.abs(double - single).max(axis=1, initial=0.0) <= SHARP * self._size
+        places: Doubles = self._origin + np.where(sharp[:, None], double, single)
+        return places
+
+    def contains(self, points: Doubles) -> NDArray[np.bool_]:
+        """Whether points lie inside or on the surface."""
+        return inside(self._boxes, self._corners, points, self._closed)
