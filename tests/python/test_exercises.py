@@ -11,70 +11,25 @@ import antumbra as am
 from antumbra.checks import run as asked
 from antumbra.checks.load import load
 from antumbra.lecture import exercises
+from common import ROOT
 
 FOLDER = Path(exercises.__file__).parent
 
-# Of each exercise: the right line for the gap, wrong ones with words of what the check says, and what it says unsolved.
-LINES = {
-    "1_offset.py": (
-        "start = at",
-        {
-            "start = at.position - 1e-3 * at.normal": "no lamp gives light",
-            "start = at.position + 0.05 * at.normal": "too large an offset",
-        },
-        "false shadow",
-    ),
-    "2_t_max.py": (
-        "reach = s.distance * (1 - 1e-4)",
-        {
-            "reach = s.distance * 1.5": "blocked by the lamp itself",
-            "reach = s.distance * 0.3": "end long before the light",
-            "reach = s.distance": "end at r exactly",
-        },
-        "blocked by the lamp itself",
-    ),
-    "3_cos_light.py": (
-        "cos_light = s.cos_light",
-        {
-            "cos_light = s.cos_light**2": "cos θ′ at the light comes twice",
-            "cos_light = s.cos_light / 2": "half",
-        },
-        "cos θ′ at the light is missing",
-    ),
-    "4_distance.py": (
-        "falls = 1 / s.distance**2",
-        {"falls = 1 / s.distance**4": "1/r² comes twice", "falls = 3 / s.distance**2": "3 samples"},
-        "1/r² is missing",
-    ),
-    "5_own_pdf.py": (
-        "pdf = 3 * z**2 / (2 * np.pi)",
-        {"pdf = z / np.pi": "comes twice", "pdf = z**2": "all light"},
-        "comes three times",
-    ),
-    "6_stratify.py": (
-        "x, y = (k % 3 + x) / 3, (k // 3 + y) / 3",
-        {"x, y = (k % 3 + x) / 6, (k // 3 + y) / 3": "", "x, y = x, (k // 9 + y) / 3": ""},
-        "right, but too noisy",
-    ),
-    "7_mis_weight.py": (
-        "return mine / np.maximum(mine + other, 1e-30)",
-        {
-            "return np.full_like(mine, 0.25)": "counts half",
-            "return mine / np.maximum(mine + 2 * other, 1e-30)": "no single term",
-        },
-        "counts twice",
-    ),
-    "8_occlusion.py": (
-        "z = np.sqrt(pair[:, :1])",
-        {"z = 1 - pair[:, :1]": "directions drawn evenly", "z = pair[:, :1] ** 2": "no single term"},
-        "directions drawn evenly",
-    ),
-}
-GAPS = [
-    *((name, None, False, says) for name, (_, _, says) in LINES.items()),
-    *((name, line, True, "") for name, (line, _, _) in LINES.items()),
-    *((name, line, False, says) for name, (_, wrong, _) in LINES.items() for line, says in wrong.items()),
-]
+PAGE = ROOT / "docs" / "exercises.md"
+
+
+def told() -> dict[str, list[tuple[str | None, bool, str]]]:
+    """Of each exercise: the lines that the page for teachers has, whether each passes, and what the check says."""
+    found: dict[str, list[tuple[str | None, bool, str]]] = {}
+    row = re.compile(r'^\| (?:`([^`]+)`|unsolved) \| (passes|fails|says "([^"]+)") \|$', re.MULTILINE)
+    for part in PAGE.read_text(encoding="utf-8").split("\n## ")[1:]:
+        name = re.match(r"`([^`]+)`", part)[1]
+        found[name] = [(line or None, verdict == "passes", says) for line, verdict, says in row.findall(part)]
+    return found
+
+
+TOLD = told()
+GAPS = [(name, *each) for name, lines in TOLD.items() for each in lines]
 
 
 def filled(name: str, line: str | None, folder: Path) -> Path:
@@ -88,14 +43,25 @@ def filled(name: str, line: str | None, folder: Path) -> Path:
     return folder / name
 
 
-def test_there_are_eight_and_each_has_an_answer():
-    assert exercises.names() == [*LINES]
-    assert len(LINES) == 8
+def test_there_are_eight_and_each_fails_before_and_passes_after():
+    assert exercises.names() == [*TOLD]
+    assert len(TOLD) == 8
+    rows = PAGE.read_text(encoding="utf-8").count("\n| ") - 8
+    assert len(GAPS) == rows, "a row of the page has another form"
+    for lines in TOLD.values():
+        assert lines[0][:2] == (None, False)
+        assert any(passes for _, passes, _ in lines)
+
+
+def test_no_file_of_a_student_has_an_answer():
+    for name, lines in TOLD.items():
+        written = {line.split("#")[0].strip() for line in (FOLDER / name).read_text("utf-8").splitlines()}
+        assert not [line for line, passes, _ in lines if passes and line in written]
 
 
 @pytest.mark.parametrize(("name", "line", "passes", "says"), GAPS)
 def test_the_check_judges_what_stands_in_the_gap(name, line, passes, says, tmp_path, monkeypatch):
-    if not passes:
+    if not passes and "picture" not in says:
         # A quarter of the samples and no pictures are enough to catch it.
         monkeypatch.setattr(asked, "RUNS", 1)
         monkeypatch.setattr(asked, "KINDS", {k: kind._replace(scenes=()) for k, kind in asked.KINDS.items()})
@@ -124,7 +90,7 @@ def test_a_folder_that_cannot_be_written(antumbra):
 
 
 def test_an_exercise_renders_its_picture(tmp_path, capsys):
-    path = filled("3_cos_light.py", LINES["3_cos_light.py"][0], tmp_path)
+    path = filled("3_cos_light.py", TOLD["3_cos_light.py"][1][0], tmp_path)
     estimator, _ = load(str(path))
     exercises.show(str(path), "pillars", estimator, viewing_rays=1)
     picture = am.load_image(tmp_path / "3_cos_light.png")
