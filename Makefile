@@ -47,6 +47,7 @@ agreement: $(VENV)/.ok ## our pictures beside another renderer's references, as 
 
 docs: $(VENV)/.ok ## write the reference pages that are made from the source
 	$(BIN)/python tools/reference.py
+	$(BIN)/python tools/equations.py
 
 gallery: $(VENV)/.ok ## render the glTF assets of the test data into docs/pictures/gallery.jpg
 	$(BIN)/python tools/gallery.py
