@@ -59,6 +59,8 @@ class Scene:
         files_from: str | PathLike[str] | None = None,
         parameters: Sequence[tuple[str, str]] = ...,
         keep: bool = True,
+        variant: str | None = None,
+        at_time: float | None = None,
     ) -> Scene: ...
     @property
     def name(self) -> str: ...

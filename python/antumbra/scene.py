@@ -38,12 +38,16 @@ def load(
     up_axis: str | None = None,
     files_from: str | PathLike[str] | None = None,
     parameters: Mapping[str, str | float] | None = None,
+    variant: str | None = None,
+    at_time: float | None = None,
 ) -> Scene:
     """Reads a scene: glTF/GLB, OBJ, PLY, STL, Mitsuba 3 XML, pbrt-v4, or a lat-long picture (and a scene under it).
 
     `up_axis`: "y" or "z", the axis that points up in the file; `files_from`: the folder that the file's own paths
     may reach (default: its own folder); `parameters`: values for what a Mitsuba file declares as `<default>`. The
     settings that such a file asks for (samples, filter, estimator) hold where `render` is told nothing else.
+
+    Of glTF, `variant`: the variant of materials; `at_time`: the time [s] that its animations stand at, at rest without.
 
     Raises SceneError with .file, .place and .hint.
 
@@ -55,7 +59,10 @@ def load(
         (name, value if isinstance(value, str) else f"{value:g}")
         for name, value in (parameters or {}).items()
     ]
-    return Scene._of(_core.Scene.load(text("path", path), up_axis, folder, given))
+    look = None if variant is None else text("variant", variant)
+    time = None if at_time is None else number("at_time", at_time)
+    core = _core.Scene.load(text("path", path), up_axis, folder, given, variant=look, at_time=time)
+    return Scene._of(core)
 
 
 def builtin(name: str, **parameters: float) -> Scene:

@@ -68,6 +68,7 @@ def test_the_same_command_gives_the_same_bits_for_any_number_of_threads(antumbra
         (["render", "pillars", "-D", "light-sise=1"], 'did you mean "light-size"?'),
         (["render", "pillars", "-D", "light-size=big"], "-D light-size=big: a number is needed"),
         (["render", "pillars", "--up-axis", "z"], "--up-axis is for files"),
+        (["render", "pillars", "--at-time", "1"], "--at-time is for files"),
         (["render", "pillars", "--camera", "Tele"], 'there is no camera "Tele"'),
         (
             ["render", "pillars", "--camera", "camera 2"],

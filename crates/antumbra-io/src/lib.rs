@@ -17,4 +17,5 @@ pub use format::{Format, READS, format_of};
 pub use limits::Limits;
 pub use read::{
     EnvironmentPicture, ReadOptions, UpAxis, environment_picture, read, read_environment, read_path,
+    read_with,
 };

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 use antumbra::scene::{Projection, SceneBuilder, Surface};
 use antumbra::texture::Texels;
-use antumbra_io::{ReadOptions, read_path};
+use antumbra_io::{FolderFiles, Format, Limits, ReadOptions, read, read_path};
 use antumbra_math::DVec3;
 
 /// All glTF files below a folder.
@@ -49,11 +49,8 @@ fn every_real_file_reads_or_is_refused_by_name() {
     for path in all {
         let name = path.file_name().unwrap().to_str().unwrap();
         let got = read_path(&path, &ReadOptions::default());
-        let refused = [
-            ("gltf1_SimpleSkin.gltf", "glTF 1.1"),
-            ("DracoSparseMesh.gltf", "KHR_draco_mesh_compression"),
-            ("BoxMeshopt.glb", "EXT_meshopt_compression"),
-        ];
+        let refused =
+            [("gltf1_SimpleSkin.gltf", "glTF 1.1"), ("DracoSparseMesh.gltf", "KHR_draco_mesh_compression")];
         match (refused.iter().find(|r| r.0 == name), got) {
             (Some((_, word)), Err(e)) => {
                 println!("{e} ({})", e.hint);
@@ -147,4 +144,30 @@ fn webp_is_read_where_the_file_offers_it() {
         assert_eq!((image.width, image.height), (128, 128));
         assert!((0..3).all(|c| (mean[c] - told[c]).abs() < 0.02), "{file}: {mean:?}");
     }
+}
+
+/// The same box, packed and as its exporter wrote the plain bytes for other readers.
+#[test]
+fn what_is_packed_is_what_was_there_before() {
+    let Some(data) = common::data("what_is_packed_is_what_was_there_before") else { return };
+    let folder = data.join("scenes/gltf/meshopt_fallback");
+    let text = std::fs::read_to_string(folder.join("meshopt-fallback.gltf")).unwrap();
+    let packed = scene(&data, "scenes/gltf/meshopt_fallback/meshopt-fallback.gltf");
+    let plain = text.replace("EXT_meshopt_compression", "EXT_of_nobody").replace("extensionsRequired", "x");
+    let files = FolderFiles::new(&folder, &folder, &Limits::default()).unwrap();
+    let plain = read(Format::Gltf, plain.as_bytes(), &files, &Limits::default()).unwrap();
+    assert!(packed.messages.is_empty(), "{:?}", packed.messages);
+    let (a, b) = (&packed.meshes[0], &plain.meshes[0]);
+    assert!(!a.triangles.vertices.is_empty());
+    assert_eq!(a.triangles.vertices, b.triangles.vertices);
+    assert_eq!(a.triangles.indices, b.triangles.indices);
+    // The plain normals of this file are still filtered; unpacked they stand on the faces of the box.
+    let normals = a.normals.as_ref().unwrap();
+    for (i, corners) in a.triangles.indices.iter().enumerate() {
+        let [p, q, r] = a.triangles.corners(i).map(|p| DVec3::from_array(p.map(f64::from)));
+        let face = (q - p).cross(r - p).normalize().as_vec3().to_array();
+        assert!(corners.iter().all(|c| normals[*c as usize] == face), "{i}: {face:?}");
+    }
+    let s = scene(&data, "scenes/gltf/BoxMeshopt.glb");
+    assert_eq!((drawn(&s), s.messages.len()), (12, 0), "{:?}", s.messages);
 }

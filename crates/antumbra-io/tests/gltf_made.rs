@@ -2,60 +2,13 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may stop at the first surprise")]
 
-use std::collections::HashMap;
+#[path = "common/made.rs"]
+mod made;
 
 use antumbra::light::Light;
-use antumbra::scene::{Alpha, Body, Level, SceneBuilder, Surface};
-use antumbra_io::{Format, Limits, MemoryFiles, ReadError, read};
+use antumbra::scene::{Alpha, Body, Level, Surface};
 use antumbra_math::{DVec3, Rgb, World};
-
-/// Lists of numbers that become buffer views and accessors.
-#[derive(Default)]
-struct Made {
-    bytes: Vec<u8>,
-    views: Vec<String>,
-    accessors: Vec<String>,
-}
-
-impl Made {
-    fn add(&mut self, component: u32, kind: &str, count: usize, more: &str, bytes: &[u8]) -> usize {
-        let (offset, length) = (self.bytes.len(), bytes.len());
-        self.bytes.extend_from_slice(bytes);
-        self.bytes.resize(self.bytes.len().next_multiple_of(4), 0);
-        let view = self.views.len();
-        self.views.push(format!(r#"{{"buffer":0,"byteOffset":{offset},"byteLength":{length}}}"#));
-        self.accessors.push(format!(
-            r#"{{"bufferView":{view},"componentType":{component},"type":"{kind}","count":{count}{more}}}"#
-        ));
-        view
-    }
-
-    fn floats(&mut self, kind: &str, lanes: usize, numbers: &[f32]) -> usize {
-        let bytes: Vec<u8> = numbers.iter().flat_map(|n| n.to_le_bytes()).collect();
-        self.add(5126, kind, numbers.len() / lanes, "", &bytes)
-    }
-
-    /// Reads the document that `rest` completes.
-    fn read(&self, rest: &str) -> Result<SceneBuilder, ReadError> {
-        let json = format!(
-            r#"{{"asset":{{"version":"2.0"}},"scene":0,"buffers":[{{"uri":"a%20b.bin","byteLength":{}}}],
-            "bufferViews":[{}],"accessors":[{}],{rest}}}"#,
-            self.bytes.len(),
-            self.views.join(","),
-            self.accessors.join(",")
-        );
-        let files = MemoryFiles(HashMap::from([("a b.bin".into(), self.bytes.clone())]));
-        read(Format::Gltf, json.as_bytes(), &files, &Limits::default())
-    }
-}
-
-const TRIANGLE: [f32; 9] = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0];
-const ONE_NODE: &str = r#""scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],"#;
-const PLAIN: &str = r#""meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}]"#;
-
-fn close(a: [f32; 3], b: [f32; 3]) -> bool {
-    a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-6)
-}
+use made::{Made, ONE_NODE, PIXEL, PLAIN, TRIANGLE, close};
 
 #[test]
 fn a_skin_follows_its_joints_and_not_its_node() {
@@ -262,7 +215,3 @@ fn glass_and_normal_maps() {
     let roughness = s.materials[7].roughness.clone().unwrap();
     assert!(roughness.squared && roughness.channel.component == 1);
 }
-
-/// A white PNG of one pixel.
-const PIXEL: &str =
-    "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mP8/5+hHgAHggJ/PchI7wAAAABJRU5ErkJggg==";

@@ -137,7 +137,9 @@ impl PyScene {
 
     /// A scene from a file.
     #[staticmethod]
-    #[pyo3(signature = (path, up_axis = None, files_from = None, parameters = Vec::new(), keep = true))]
+    #[pyo3(signature = (path, up_axis = None, files_from = None, parameters = Vec::new(), keep = true,
+        variant = None, at_time = None))]
+    #[allow(clippy::too_many_arguments, reason = "they are keywords in Python")]
     fn load(
         py: Python<'_>,
         path: &str,
@@ -145,6 +147,8 @@ impl PyScene {
         files_from: Option<PathBuf>,
         parameters: Vec<(String, String)>,
         keep: bool,
+        variant: Option<String>,
+        at_time: Option<f64>,
     ) -> PyResult<PyScene> {
         let up_axis = match up_axis {
             None => UpAxis::default(),
@@ -152,7 +156,8 @@ impl PyScene {
             Some("z") => UpAxis::Z,
             Some(other) => return Err(errors::choice(format!("there is no up axis \"{other}\" (y, z)"))),
         };
-        let options = ReadOptions { files_from, up_axis, parameters, ..ReadOptions::default() };
+        let options =
+            ReadOptions { files_from, up_axis, parameters, variant, at_time, ..ReadOptions::default() };
         let builder = py.detach(|| read_path(Path::new(path), &options)).map_err(|e| errors::read(&e))?;
         PyScene::of(on_stage(builder), path).finished(py, keep)
     }

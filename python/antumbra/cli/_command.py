@@ -16,12 +16,19 @@ _COLUMN = 25
 
 
 class Option(click.Option):
-    """An option that knows its group of the help and, if it stands for one, its setting."""
+    """An option that knows its group of the help and, if it stands for one, its setting; or says how a file is read."""
 
-    def __init__(self, *names: str, group: str = "Run", setting: Setting | None = None, **rest: Any) -> None:
+    def __init__(
+        self,
+        *names: str,
+        group: str = "Run",
+        setting: Setting | None = None,
+        reading: bool = False,
+        **rest: Any,
+    ) -> None:
         """As click's, with the group."""
         super().__init__(list(names), **rest)
-        self.group, self.setting = group, setting
+        self.group, self.setting, self.reading = group, setting, reading
 
 
 class Verb(click.Command):
@@ -40,6 +47,8 @@ class Verb(click.Command):
     ) -> None:
         """`run` gets every argument and option by name, the settings given as one dict `settings`.
 
+        What says how a file is read comes, where it was given, as one dict `reading`.
+
         `own_words`: of a setting with choices, those that make sense to this verb, its default first.
         """
         own = [click.Argument([place.lower()], metavar=place, required=needed) for place, needed in arguments]
@@ -56,6 +65,7 @@ class Verb(click.Command):
         )
         self.examples = examples
         self.has_settings = bool(settings)
+        self.reads = any(isinstance(p, Option) and p.reading for p in self.params)
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         """Refuses words that nothing takes."""
@@ -78,6 +88,10 @@ class Verb(click.Command):
                     if value is not None and value != ():
                         given[param.setting.name] = "\n".join(value) if param.multiple else value
             ctx.params["settings"] = given
+        if self.reads:
+            names = [p.name or "" for p in self.params if isinstance(p, Option) and p.reading]
+            found = {name: ctx.params.pop(name) for name in names}
+            ctx.params["reading"] = {name: value for name, value in found.items() if value is not None}
         return super().invoke(ctx)
 
     def format_help(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:

@@ -1,8 +1,10 @@
-"""SCENE on the command line: a file, or the name of a built-in scene, with `-D`, `--up-axis` and `--files-from`."""
+"""SCENE on the command line: a file, or the name of a built-in scene, with `-D` and what a file is read with."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 import click
 
@@ -17,23 +19,25 @@ def options() -> list[Option]:
     return [
         Option("-D", "definitions", group="Files", metavar="NAME=VALUE", multiple=True,
                help="a parameter of a built-in scene or an XML file (may be repeated)"),
-        Option("--up-axis", group="Files", metavar="NAME",
+        Option("--up-axis", group="Files", metavar="NAME", reading=True,
                help="the axis that points up in the file: y, z (default: what the format says)"),
-        Option("--files-from", group="Files", metavar="DIR",
+        Option("--files-from", group="Files", metavar="DIR", reading=True,
                help="the folder that the scene's own paths may reach (default: its own folder)"),
+        Option("--variant", group="Files", metavar="NAME", reading=True,
+               help="the variant of materials of a glTF file (default: the file's first look)"),
+        Option("--at-time", group="Files", metavar="SECONDS", type=float, reading=True,
+               help="the time that the animations of a glTF file stand at (default: at rest)"),
     ]  # fmt: skip
 
 
-def open_scene(
-    scene: str, definitions: tuple[str, ...], up_axis: str | None, files_from: str | None
-) -> _core.Scene:
-    """Reads or builds it."""
+def open_scene(scene: str, definitions: tuple[str, ...], reading: Mapping[str, Any]) -> _core.Scene:
+    """Reads or builds it; `reading`: keywords of `load`."""
     given = [definition(text) for text in definitions]
-    if is_file(scene, up_axis, files_from):
+    if is_file(scene, reading):
         if given and Path(scene).suffix.lower() != ".xml":
             raise click.UsageError(f"-D {definitions[0]}: {scene} has no parameters")
         try:
-            return _core.Scene.load(scene, up_axis, files_from, given, keep=False)
+            return _core.Scene.load(scene, parameters=given, keep=False, **reading)
         except SceneError as problem:
             if scene in (name for name, _, _ in _core.builtins()):
                 here = f'What lies here under this name hides the built-in scene "{scene}": go to another folder.'
@@ -46,13 +50,12 @@ def open_scene(
     return _core.Scene.builtin(scene, [(name, number(name, text)) for name, text in given], keep=False)
 
 
-def is_file(scene: str, up_axis: str | None, files_from: str | None) -> bool:
+def is_file(scene: str, reading: Mapping[str, Any]) -> bool:
     """A path that exists wins; a name with a dot or a slash is always a file. Refuses options of files for names."""
     if Path(scene).exists() or "." in scene or "/" in scene:
         return True
-    for option, value in (("--up-axis", up_axis), ("--files-from", files_from)):
-        if value is not None:
-            raise click.UsageError(f'{option} is for files: "{scene}" is a built-in scene')
+    for name in reading:
+        raise click.UsageError(f'--{name.replace("_", "-")} is for files: "{scene}" is a built-in scene')
     return False
 
 

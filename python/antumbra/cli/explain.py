@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json as json_module
+from typing import Any
 
 import click
 
@@ -18,8 +19,7 @@ def run(
     pixel: str,
     json: bool,
     definitions: tuple[str, ...],
-    up_axis: str | None,
-    files_from: str | None,
+    reading: dict[str, Any],
     settings: dict[str, str],
     quiet: bool,
     verbose: bool,
@@ -27,7 +27,7 @@ def run(
     """Take one pixel apart: its receivers, every ray to a light with every factor, and their sum."""
     from antumbra.scene import Scene
 
-    opened = _scene.open_scene(scene, definitions, up_axis, files_from)
+    opened = _scene.open_scene(scene, definitions, reading)
     found = Scene._of(opened).explain(_pixel(pixel), **{"estimator": "area", **settings})
     if json:
         print(json_module.dumps(found.as_dict(), indent=1, ensure_ascii=False))

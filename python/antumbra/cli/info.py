@@ -26,8 +26,7 @@ def run(
     json: bool,
     list: bool,
     definitions: tuple[str, ...],
-    up_axis: str | None,
-    files_from: str | None,
+    reading: dict[str, Any],
     quiet: bool,
     verbose: bool,
 ) -> int:
@@ -38,7 +37,7 @@ def run(
     if scene is None:
         raise click.UsageError("SCENE is missing (or --list, for the built-in scenes)")
     began = time.perf_counter()
-    opened = _scene.open_scene(scene, definitions, up_axis, files_from)
+    opened = _scene.open_scene(scene, definitions, reading)
     found = _facts(opened, scene, time.perf_counter() - began)
     if json:
         print(_as_json(found))

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from antumbra import _core, effects, settings
-from antumbra.cli import _say, _scene
+from antumbra.cli import _frames, _say, _scene
 from antumbra.cli._command import GROUPS, Verb, output_option
 from antumbra.cli._progress import Bar
 from antumbra.errors import RenderStopped
@@ -25,39 +25,56 @@ def run(
     scene: str,
     output: str | None,
     definitions: tuple[str, ...],
-    up_axis: str | None,
-    files_from: str | None,
+    reading: dict[str, Any],
+    frames: str | None,
+    fps: float | None,
     settings: dict[str, str],
     quiet: bool,
     verbose: bool,
 ) -> int:
     """Render SCENE to an EXR or PNG picture."""
+    path = _output(output or f"{_scene.stem(scene)}.exr")
+    sequence = _frames.wanted(frames, fps, scene, reading)
+    _check(settings, path)
+    if sequence is None:
+        try:
+            _picture(_scene.open_scene(scene, definitions, reading), path, settings, quiet)
+        except RenderStopped as stopped:
+            return _stopped(stopped.image, path)
+        return 0
+
+    def one(path: Path, time: float, first: bool) -> None:
+        opened = _scene.open_scene(scene, definitions, {**reading, "at_time": time})
+        _picture(opened, path, settings, quiet, again=not first)
+
+    given = (definitions, sorted(reading.items()), sorted(settings.items()), sequence.fps)
+    return _frames.run(sequence, path, _frames.identity(scene, *given), one)
+
+
+def _picture(
+    opened: _core.Scene, path: Path, settings: dict[str, str], quiet: bool, again: bool = False
+) -> None:
+    """Renders one picture and says so; `again`: the notes were told with an earlier one."""
     from antumbra.scene import Scene
 
-    path = _output(output or f"{_scene.stem(scene)}.exr")
-    _check(settings, path)
-    opened = _scene.open_scene(scene, definitions, up_axis, files_from)
-    _scene.tell(opened, quiet)
+    silent = quiet or again
+    _scene.tell(opened, silent)
     asked = opened.suggested()
     told = effects.idle(settings, path.suffix.lower(), asked)
-    if not quiet:
+    if not silent:
         _say.messages("", [("note", "", text) for text in told])
     head = f"  {opened.name} · {_facts(opened)} · {_plan(opened, {**asked, **settings})}"
     watched = sys.stderr.isatty()
-    if watched and not quiet:
+    if watched and not silent:
         print(head, file=sys.stderr, flush=True)
-    try:
-        with Bar(quiet) as bar:
-            image = Scene._of(opened).render(progress=bar.show, **settings)
-    except RenderStopped as stopped:
-        return _stopped(stopped.image, path)
+    with Bar(quiet) as bar:
+        image = Scene._of(opened).render(progress=bar.show, **settings)
     image.save(path)
-    if not quiet:
+    if not silent:
         _say.messages(_scene.file_of(opened), [said for said in image.messages if said.text not in told])
         if not watched:
             print(head, file=sys.stderr)
     print(_ending(image, path))
-    return 0
 
 
 VERB = Verb(
@@ -73,6 +90,7 @@ VERB = Verb(
     options=[
         output_option("FILE", "the picture, .exr or .png [NAME.exr]"),
         *_scene.options(),
+        *_frames.options(),
     ],
 )
 

@@ -31,8 +31,7 @@ def run(
     seeds: int,
     output: str | None,
     definitions: tuple[str, ...],
-    up_axis: str | None,
-    files_from: str | None,
+    reading: dict[str, Any],
     settings: dict[str, str],
     quiet: bool,
     verbose: bool,
@@ -43,7 +42,7 @@ def run(
     if not vary:
         raise click.UsageError("--vary is missing: name what is to be compared, as --vary shadow-rays=1,9,36")
     folder = Path(output or f"{_scene.stem(scene)}-study")
-    source, parameters = _source(scene, definitions, up_axis, files_from)
+    source, parameters = _source(scene, definitions, reading)
     asked: dict[str, Any] = {
         "vary": dict(_varied(text) for text in vary), "reference": reference, "seeds": seeds, "folder": folder,
         "reference_error": reference_error, "reference_rays": reference_rays, "budget": _budget(budget),
@@ -98,18 +97,18 @@ VERB = Verb(
 
 
 def _source(
-    scene: str, definitions: tuple[str, ...], up_axis: str | None, files_from: str | None
+    scene: str, definitions: tuple[str, ...], reading: dict[str, Any]
 ) -> tuple[Source, dict[str, float]]:
     """The scene, and what -D says of it."""
     from antumbra.study.plan import is_number
     from antumbra.study.sources import file, source
 
     given = dict(_scene.definition(text) for text in definitions)
-    is_file = _scene.is_file(scene, up_axis, files_from)
+    is_file = _scene.is_file(scene, reading)
     texts = {name: text for name, text in given.items() if is_file and not is_number(text)}
     parameters = {name: _scene.number(name, text) for name, text in given.items() if name not in texts}
     if is_file:
-        return file(scene, up_axis, files_from, texts), parameters
+        return file(scene, texts, **reading), parameters
     return source(scene), parameters
 
 

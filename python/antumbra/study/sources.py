@@ -57,23 +57,18 @@ def source(scene: Any) -> Source:
     return Source(lambda given: _built_in(scene, given), scene, f"built-in {scene}", builtin=scene)
 
 
-def file(
-    path: str,
-    up_axis: str | None = None,
-    files_from: str | None = None,
-    texts: Mapping[str, str] | None = None,
-) -> Source:
-    """A scene of a file; `texts`: values of a Mitsuba file's parameters that are no numbers."""
+def file(path: str, texts: Mapping[str, str] | None = None, **reading: Any) -> Source:
+    """A scene of a file; `texts`: values of a Mitsuba file's parameters that are no numbers; `reading`: as `load`."""
     from antumbra.scene import load
 
     at, texts = Path(path), dict(texts or {})
-    identity = f"{at.resolve()} {content(at)} {up_axis} {files_from} {sorted(texts.items())}"
+    identity = f"{at.resolve()} {content(at)} {sorted(reading.items())} {sorted(texts.items())}"
 
     def opened(given: Parameters) -> Scene:
         for name in given.keys() & texts.keys():
             raise OptionError(f"D.{name} is varied and also given a fixed value: one of the two")
         values = {**texts, **{name: _written(value) for name, value in given.items()}}
-        return load(path, up_axis=up_axis, files_from=files_from, parameters=values)
+        return load(path, parameters=values, **reading)
 
     has_parameters = at.suffix.lower() == ".xml"
     if texts and not has_parameters:

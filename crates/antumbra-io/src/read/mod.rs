@@ -41,6 +41,10 @@ pub(crate) struct Context<'a> {
     pub named_glb: bool,
     /// Values for the parameters that a file declares.
     pub parameters: &'a [(String, String)],
+    /// The variant of materials that is wanted, by name.
+    pub variant: Option<&'a str>,
+    /// The time that animations stand at [s]; at rest without.
+    pub at_time: Option<f64>,
     /// Decoded pictures.
     pub textures: Allowance,
     memory: Allowance,
@@ -96,6 +100,10 @@ pub struct ReadOptions {
     pub up_axis: UpAxis,
     /// Values for the parameters that the file declares (`default` of Mitsuba's XML).
     pub parameters: Vec<(String, String)>,
+    /// The variant of materials that is wanted, by name (glTF); those of the file itself without.
+    pub variant: Option<String>,
+    /// The time that animations stand at [s] (glTF); at rest without.
+    pub at_time: Option<f64>,
     /// What may be asked for.
     pub limits: Limits,
 }
@@ -107,8 +115,17 @@ pub fn read(
     files: &dyn Files,
     limits: &Limits,
 ) -> Result<SceneBuilder, ReadError> {
-    let options = ReadOptions { limits: *limits, ..ReadOptions::default() };
-    read_as(format, bytes, &context(files, &options, bytes.len(), false))
+    read_with(format, bytes, files, &ReadOptions { limits: *limits, ..ReadOptions::default() })
+}
+
+/// The same with options; `files_from` does not matter here.
+pub fn read_with(
+    format: Format,
+    bytes: &[u8],
+    files: &dyn Files,
+    options: &ReadOptions,
+) -> Result<SceneBuilder, ReadError> {
+    read_as(format, bytes, &context(files, options, bytes.len(), false))
 }
 
 fn context<'a>(
@@ -124,6 +141,8 @@ fn context<'a>(
         root: options.up_axis.transform(),
         named_glb,
         parameters: &options.parameters,
+        variant: options.variant.as_deref(),
+        at_time: options.at_time,
         textures: Allowance::new(limits.texture_bytes),
         memory: Allowance::new(limits.expansion_base),
     };
@@ -131,7 +150,23 @@ fn context<'a>(
     context
 }
 
+/// Refuses what only glTF knows of other formats.
+fn refuse_foreign(format: Format, context: &Context) -> Result<(), ReadError> {
+    if context.at_time.is_some_and(|t| !t.is_finite()) {
+        return Err(ReadError::new("", "the time of its animations is no finite number"));
+    }
+    let asked = context.variant.map(|_| "variants of materials").or(context.at_time.map(|_| "animations"));
+    match asked {
+        Some(what) if format != Format::Gltf => {
+            let what = format!("has no {what}: only glTF files have them");
+            Err(ReadError::new("", what).hint("Leave the option away."))
+        }
+        _ => Ok(()),
+    }
+}
+
 fn read_as(format: Format, bytes: &[u8], context: &Context) -> Result<SceneBuilder, ReadError> {
+    refuse_foreign(format, context)?;
     match format {
         Format::Gltf => gltf::read(bytes, context),
         Format::Obj => obj::read(bytes, context),

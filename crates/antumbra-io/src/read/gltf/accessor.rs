@@ -9,7 +9,6 @@ use bytemuck::Pod;
 
 use super::buffers::Buffers;
 use super::document::{Accessor, Document, Sparse};
-use super::extensions::{MESHOPT, advice};
 use crate::error::ReadError;
 use crate::read::Context;
 
@@ -153,12 +152,7 @@ impl<'a> Accessors<'a> {
             return Err(fail(format!("has type {}; {wanted} numbers an element are needed", a.kind)));
         }
         let size = component * lanes;
-        let too_much = |what: String| {
-            let packed = what.contains(MESHOPT[0]);
-            let hint =
-                if packed { advice(MESHOPT[0]) } else { "The file is cut short, or its exporter is wrong." };
-            fail(what).hint(hint)
-        };
+        let too_much = |what: String| fail(what).hint("The file is cut short, or its exporter is wrong.");
         let (bytes, stride) = match a.buffer_view {
             Some(view) => self.slice(view, a.byte_offset, a.count, size).map_err(too_much)?,
             None => (&[] as &[u8], size),
@@ -211,13 +205,20 @@ impl<'a> Accessors<'a> {
     pub(super) fn view(&self, view: usize) -> Result<&'a [u8], String> {
         let n = self.doc.buffer_views.len();
         let v = self.doc.buffer_views.get(view).ok_or(format!("names buffer view {view}; there are {n}"))?;
-        let n = self.buffers.len();
+        if let Some(bytes) = self.buffers.unpacked.get(&view) {
+            return Ok(bytes);
+        }
+        let n = self.buffers.files.len();
         let buffer = self
             .buffers
+            .files
             .get(v.buffer)
             .ok_or_else(|| format!("buffer view {view} names buffer {}; there are {n}", v.buffer))?;
         let Some(buffer) = buffer else {
-            return Err(format!("is compressed with {}, and the file brings no fallback", MESHOPT[0]));
+            return Err(format!(
+                "buffer view {view} is not packed, and its buffer {} holds nothing",
+                v.buffer
+            ));
         };
         let end = v.byte_offset.checked_add(v.byte_length).filter(|end| *end <= buffer.len() as u64);
         end.map(|end| &buffer[v.byte_offset as usize..end as usize]).ok_or_else(|| {

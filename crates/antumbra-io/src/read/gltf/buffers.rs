@@ -4,20 +4,42 @@ use std::borrow::Cow;
 use std::collections::HashMap;
 
 use super::document::Document;
+use super::meshopt;
 use crate::error::ReadError;
 use crate::read::Context;
 use crate::read::uri;
 
-/// Bytes of each buffer; `None` for those that only meshopt compression names as its fallback and that are not there.
-pub(super) type Buffers<'a> = Vec<Option<Cow<'a, [u8]>>>;
+/// The bytes of a document.
+pub(super) struct Buffers<'a> {
+    /// Of each buffer; `None` for those that hold nothing, because all their views are packed.
+    pub files: Vec<Option<Cow<'a, [u8]>>>,
+    /// Of the buffer views that were packed.
+    pub unpacked: HashMap<usize, Vec<u8>>,
+}
 
-/// Loads what the document names.
+/// Loads what the document names, and unpacks what is packed.
 pub(super) fn load<'a>(
     doc: &Document,
     bin: Option<&'a [u8]>,
     context: &Context,
 ) -> Result<Buffers<'a>, ReadError> {
-    let mut buffers: Buffers<'a> = Vec::new();
+    let files = files(doc, bin, context)?;
+    let mut unpacked = HashMap::new();
+    for view in 0..doc.buffer_views.len() {
+        let buffer = |i: usize| files.get(i)?.as_deref();
+        if let Some(bytes) = meshopt::unpack(doc, view, buffer, context)? {
+            unpacked.insert(view, bytes);
+        }
+    }
+    Ok(Buffers { files, unpacked })
+}
+
+fn files<'a>(
+    doc: &Document,
+    bin: Option<&'a [u8]>,
+    context: &Context,
+) -> Result<Vec<Option<Cow<'a, [u8]>>>, ReadError> {
+    let mut buffers: Vec<Option<Cow<'a, [u8]>>> = Vec::new();
     // A file that several buffers name is read once.
     let mut first_with: HashMap<&str, usize> = HashMap::new();
     for (i, buffer) in doc.buffers.iter().enumerate() {
@@ -25,6 +47,10 @@ pub(super) fn load<'a>(
             Some(u) if !u.starts_with("data:") => format!("buffer {i} \"{u}\""),
             _ => format!("buffer {i}"),
         };
+        if meshopt::is_placeholder(&buffer.extensions) {
+            buffers.push(None);
+            continue;
+        }
         let bytes: Cow<[u8]> = match &buffer.uri {
             Some(u) if first_with.contains_key(u.as_str()) => {
                 let same = buffers[first_with[u.as_str()]].as_deref().unwrap_or_default();
@@ -33,10 +59,6 @@ pub(super) fn load<'a>(
             }
             Some(u) => Cow::Owned(uri::fetch(u, context).map_err(|what| ReadError::new(place(), what))?),
             None if i == 0 && bin.is_some() => Cow::Borrowed(bin.unwrap_or_default()),
-            None if is_fallback(&buffer.extensions) => {
-                buffers.push(None);
-                continue;
-            }
             None => return Err(ReadError::new(place(), "has no uri, and there is no binary chunk for it")),
         };
         if (bytes.len() as u64) < buffer.byte_length {
@@ -51,12 +73,4 @@ pub(super) fn load<'a>(
         buffers.push(Some(bytes));
     }
     Ok(buffers)
-}
-
-/// A placeholder of EXT_meshopt_compression (or its KHR twin).
-fn is_fallback(extensions: &super::document::Extensions) -> bool {
-    super::extensions::MESHOPT
-        .iter()
-        .filter_map(|name| extensions.get(*name))
-        .any(|e| e.get("fallback").and_then(|f| f.as_bool()) == Some(true))
 }

@@ -27,7 +27,7 @@ pub(super) struct Document {
     pub samplers: Vec<Sampler>,
     pub cameras: Vec<GltfCamera>,
     pub skins: Vec<Skin>,
-    pub animations: Vec<serde::de::IgnoredAny>,
+    pub animations: Vec<Animation>,
     pub extensions: Extensions,
 }
 
@@ -90,6 +90,8 @@ pub(super) struct Accessor {
     pub count: u64,
     #[serde(rename = "type")]
     pub kind: String,
+    /// Largest values, one a component; times of animations have it.
+    pub max: Option<Vec<f64>>,
     pub sparse: Option<Sparse>,
 }
 
@@ -273,6 +275,36 @@ pub(super) struct Orthographic {
 pub(super) struct Skin {
     pub inverse_bind_matrices: Option<usize>,
     pub joints: Vec<usize>,
+}
+
+#[derive(Default, Deserialize)]
+#[serde(default)]
+pub(super) struct Animation {
+    pub name: String,
+    pub channels: Vec<Channel>,
+    pub samplers: Vec<AnimationSampler>,
+}
+
+#[derive(Deserialize)]
+pub(super) struct Channel {
+    pub sampler: usize,
+    pub target: Target,
+}
+
+#[derive(Default, Deserialize)]
+#[serde(default)]
+pub(super) struct Target {
+    pub node: Option<usize>,
+    pub path: String,
+}
+
+#[derive(Deserialize)]
+pub(super) struct AnimationSampler {
+    /// Accessor of the times [s].
+    pub input: usize,
+    /// Accessor of the values.
+    pub output: usize,
+    pub interpolation: Option<String>,
 }
 
 /// One light of KHR_lights_punctual.

@@ -1,34 +1,28 @@
 //! Which extensions are read, which only touch looks, and which would hide geometry.
 
 use super::document::Document;
+use super::meshopt;
 use crate::error::ReadError;
 use crate::read::Counted;
-
-/// The two names of meshopt compression.
-pub(super) const MESHOPT: [&str; 2] = ["EXT_meshopt_compression", "KHR_meshopt_compression"];
 
 /// Read in full, or read through the fallback that the file brings.
 const READ: &[&str] = &[
     "KHR_lights_punctual",
     "KHR_materials_emissive_strength",
     "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_variants",
     "KHR_mesh_quantization",
     "KHR_node_visibility",
     "KHR_texture_transform",
     "EXT_mesh_gpu_instancing",
     "EXT_texture_webp",
-    MESHOPT[0],
-    MESHOPT[1],
+    meshopt::NAMES[0],
+    meshopt::NAMES[1],
 ];
 
 /// They carry nothing that light would meet.
-const NOTHING_TO_SEE: &[&str] = &[
-    "KHR_xmp",
-    "KHR_xmp_json_ld",
-    "KHR_materials_variants",
-    "KHR_animation_pointer",
-    "KHR_node_hoverability",
-];
+const NOTHING_TO_SEE: &[&str] =
+    &["KHR_xmp", "KHR_xmp_json_ld", "KHR_animation_pointer", "KHR_node_hoverability"];
 
 /// They touch pictures and lights of a kind that can be left out.
 const LOOKS: &[&str] = &[
@@ -76,8 +70,6 @@ pub(super) fn advice(name: &str) -> &'static str {
     if name == "KHR_draco_mesh_compression" {
         "The extra that will read it, antumbra[draco], is not there yet: until then, write it without compression:\n\
          `npx @gltf-transform/cli copy IN.glb OUT.glb` unpacks it."
-    } else if MESHOPT.contains(&name) {
-        "Write it without compression: `npx @gltf-transform/cli copy IN.glb OUT.glb` unpacks it."
     } else {
         "Export the scene again without this extension."
     }

@@ -36,7 +36,7 @@ impl Reader<'_> {
             let Some(id) = self.mesh(primitive, &variant, &mesh.name, &place).map_err(told)? else {
                 continue;
             };
-            let material = self.material(primitive.material);
+            let material = self.material(self.wanted(primitive));
             self.context.take(places.len() as u64, OBJECT).map_err(|e| told(ReadError::new("", e)))?;
             for place in &places {
                 self.scene.place(name, id, material, *place);

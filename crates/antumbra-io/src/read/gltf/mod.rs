@@ -1,6 +1,7 @@
 //! glTF 2.0 and GLB.
 
 mod accessor;
+mod animation;
 mod buffers;
 mod camera;
 mod container;
@@ -9,10 +10,12 @@ mod extensions;
 mod light;
 mod material;
 mod mesh;
+mod meshopt;
 mod node;
 mod primitive;
 mod skin;
 mod texture;
+mod variant;
 
 use antumbra::scene::{Level, SceneBuilder};
 use antumbra_math::Transform;
@@ -30,6 +33,8 @@ struct Reader<'a> {
     context: &'a Context<'a>,
     scene: SceneBuilder,
     said: Counted,
+    /// Index of the variant of materials that is wanted.
+    variant: Option<usize>,
     materials: material::Materials,
     meshes: primitive::Meshes,
     /// Where each node of the scene stands.
@@ -39,7 +44,7 @@ struct Reader<'a> {
 /// Reads a `.gltf` or `.glb`.
 pub(super) fn read(bytes: &[u8], context: &Context) -> Result<SceneBuilder, ReadError> {
     let container = container::open(bytes, context.named_glb)?;
-    let doc = parse(container.json)?;
+    let mut doc = parse(container.json)?;
     let mut said = Counted::default();
     if container.trailing > 0 {
         let what = format!("{} bytes after its announced length are not read", container.trailing);
@@ -47,12 +52,15 @@ pub(super) fn read(bytes: &[u8], context: &Context) -> Result<SceneBuilder, Read
     }
     extensions::check(&doc, &mut said)?;
     let buffers = buffers::load(&doc, container.bin, context)?;
+    stand(&mut doc, &buffers, context, &mut said)?;
+    let variant = variant::find(&doc, context.variant)?;
     let mut reader = Reader {
         doc: &doc,
         accessors: Accessors { doc: &doc, buffers: &buffers, context },
         context,
         scene: SceneBuilder { source: source(&doc.asset), ..SceneBuilder::default() },
         said,
+        variant,
         materials: material::Materials::default(),
         meshes: primitive::Meshes::default(),
         world: vec![None; doc.nodes.len()],
@@ -83,13 +91,43 @@ impl Reader<'_> {
             let what = "there is nothing to render: no mesh with triangles in the scene";
             return Err(ReadError::new("", what).hint("Check that the right scene was exported."));
         }
-        if !self.doc.animations.is_empty() {
-            self.scene.say(Level::Note, "", "animations stand still: the scene is drawn as its nodes stand");
+        if let Some(text) = offers(self.doc, self.context) {
+            self.scene.say(Level::Note, "", text);
         }
         self.scene.sky_if_unlit = true;
         self.said.into_scene(&mut self.scene);
         Ok(self.scene)
     }
+}
+
+/// Puts the nodes where the animations have them at the time that is asked for.
+fn stand(
+    doc: &mut Document,
+    buffers: &buffers::Buffers,
+    context: &Context,
+    said: &mut Counted,
+) -> Result<(), ReadError> {
+    let Some(time) = context.at_time else { return Ok(()) };
+    if doc.animations.is_empty() {
+        said.note("animations", "there are none: every time shows the same");
+    }
+    let pose = animation::pose(&Accessors { doc, buffers, context }, time, said)?;
+    animation::apply(doc, &pose);
+    Ok(())
+}
+
+/// What the file has besides what is shown.
+fn offers(doc: &Document, context: &Context) -> Option<String> {
+    let still = context.at_time.is_none() && !doc.animations.is_empty();
+    let still = still.then(|| {
+        let end = antumbra_math::real::round(animation::end(doc) * 1000.0) / 1000.0;
+        format!("animations stand still (--at-time T, 0 to {end} s)")
+    });
+    let names = if context.variant.is_none() { variant::names(doc) } else { Vec::new() };
+    let looks =
+        (!names.is_empty()).then(|| format!("materials in variants (--variant {})", names.join(", ")));
+    let parts: Vec<_> = [still, looks].into_iter().flatten().collect();
+    (!parts.is_empty()).then(|| parts.join("; "))
 }
 
 /// What the file says of itself.

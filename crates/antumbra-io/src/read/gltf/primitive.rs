@@ -125,7 +125,7 @@ impl Reader<'_> {
         n: u64,
         pick: Pick,
     ) -> Result<Option<Tangents>, ReadError> {
-        let material = p.material.and_then(|i| self.doc.materials.get(i));
+        let material = self.wanted(p).and_then(|i| self.doc.materials.get(i));
         let mapped = material.is_some_and(|m| m.normal_texture.is_some());
         if !mapped || key.skin.is_some() || !key.targets.is_empty() || !p.attributes.contains_key("NORMAL") {
             return Ok(None);
