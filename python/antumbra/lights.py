@@ -125,7 +125,10 @@ class Rectangle(Described):
 
 @dataclass(frozen=True)
 class Disk(Described):
-    """A disk about `center` (3,) with `radius`; shines from the side of `normal` (3,), of any length."""
+    """A disk about `center` (3,) with `radius`; shines from the side of `normal` (3,), of any length.
+
+    Its points are drawn evenly over its area, also with `light_points="solid-angle"`.
+    """
 
     center: Vector
     normal: Vector

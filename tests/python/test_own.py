@@ -83,6 +83,19 @@ def test_what_stands_far_from_the_point_blocks_a_sun():
     assert scene.occluded([(0.0, 0, 0)], s.target).all()
 
 
+@pytest.mark.parametrize("how", ["solid-angle", "area"])
+def test_points_of_a_disk_are_even_over_its_area_either_way(how):
+    scene, n = am.Scene(), 100_000
+    scene.add_light(am.lights.Disk((0, 1, 0), (0, -1, 0), 1.0))
+    u = np.random.default_rng(6).random((n, 3))
+    s = scene.sample_light(np.zeros((n, 3)), (0, 1.0, 0), u, light_points=how)
+    light = (s.radiance[:, 0] * s.direction[:, 1] / s.pdf).astype(np.float64)
+    # CF35a (docs/decisions/0007). The standard error of a variance is √((m₄ − m₂²)/n); five of them.
+    centred = light - light.mean()
+    error = np.sqrt(((centred**4).mean() - (centred**2).mean() ** 2) / n)
+    assert abs(light.var() - 0.4112335167121) < 5 * error
+
+
 def test_one_light_is_drawn_never_all():
     with pytest.raises(am.OptionError, match="one light is drawn here"):
         am.builtin("pillars").sample_light([(0.0, 1, 0)], (0, 1.0, 0), np.full((1, 3), 0.5), lights="all")
