@@ -37,7 +37,8 @@ def test_asset(asset, data):
 
 
 @pytest.mark.parametrize("file", GALLERY.REFUSED)
-def test_refused(file, data):
+def test_refused(file, data, monkeypatch):
+    monkeypatch.setitem(sys.modules, "DracoPy", None)
     with pytest.raises(am.SceneError) as told:
         am.load(data / file)
     assert GALLERY.REFUSED[file] in f"{told.value}\n{told.value.hint}"

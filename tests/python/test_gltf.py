@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import sys
+import types
 
 import numpy as np
 import pytest
@@ -145,3 +147,43 @@ def test_frames_are_the_pictures_at_their_times_and_go_on_where_they_stopped(
 def test_what_makes_no_sense_about_time_is_told(antumbra, moving, given, told):
     ended = antumbra("render", *given)
     assert ended.code == 2 and told in ended.err
+
+
+@pytest.fixture
+def packed(data):
+    return data / "scenes/gltf/draco_sparse/DracoSparseMesh.gltf"
+
+
+def test_a_packed_mesh_names_the_extra_that_unpacks_it(packed, monkeypatch):
+    monkeypatch.setitem(sys.modules, "DracoPy", None)
+    with pytest.raises(am.SceneError) as caught:
+        am.load(packed)
+    assert "Monochord_Vibrator" in caught.value.place and "antumbra[draco]" in caught.value.hint
+
+
+def test_a_packed_mesh_is_what_its_decoder_says(packed, monkeypatch):
+    faces = np.arange(306).reshape(102, 3) % 62
+    points = np.zeros((62, 3)) + np.arange(62)[:, None]
+
+    class Mesh:
+        """As DracoPy gives it: whole numbers of any width, floats of double precision too."""
+
+        def __init__(self):
+            self.faces = faces
+
+        def get_attribute_by_unique_id(self, number):
+            width = {0: 3, 1: 3, 2: 4, 3: 2, 4: 4}[number]
+            return {"data": points if number == 0 else np.ones((62, width))}
+
+    seen = []
+    monkeypatch.setitem(
+        sys.modules, "DracoPy", types.SimpleNamespace(decode=lambda data: seen.append(data) or Mesh())
+    )
+    vertices, triangles = am.load(packed).triangles()
+    assert len(seen) == 1 and seen[0][:5] == b"DRACO"
+    assert np.array_equal(vertices, points) and np.array_equal(triangles, faces)
+    monkeypatch.setitem(
+        sys.modules, "DracoPy", types.SimpleNamespace(decode=lambda data: types.SimpleNamespace(faces=None))
+    )
+    with pytest.raises(am.SceneError, match="it has no triangles"):
+        am.load(packed)

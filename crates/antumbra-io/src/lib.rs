@@ -16,6 +16,6 @@ pub use files::{FileError, Files, FolderFiles, MemoryFiles};
 pub use format::{Format, READS, format_of};
 pub use limits::Limits;
 pub use read::{
-    EnvironmentPicture, ReadOptions, UpAxis, environment_picture, read, read_environment, read_path,
-    read_with,
+    DracoAttribute, DracoDecoder, DracoError, DracoMesh, EnvironmentPicture, ReadOptions, UpAxis,
+    environment_picture, read, read_environment, read_path, read_with,
 };

@@ -3,6 +3,7 @@
 mod anatomy;
 mod arrays;
 mod ask;
+mod draco;
 mod errors;
 mod info;
 mod kinds;

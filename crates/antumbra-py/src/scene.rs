@@ -16,6 +16,7 @@ use numpy::{PyReadonlyArray2, PyReadonlyArray3};
 use pyo3::prelude::*;
 
 use crate::arrays::{Rows, View, columns};
+use crate::draco;
 use crate::errors;
 use crate::kinds::{self, Fields, Made};
 
@@ -156,8 +157,15 @@ impl PyScene {
             Some("z") => UpAxis::Z,
             Some(other) => return Err(errors::choice(format!("there is no up axis \"{other}\" (y, z)"))),
         };
-        let options =
-            ReadOptions { files_from, up_axis, parameters, variant, at_time, ..ReadOptions::default() };
+        let options = ReadOptions {
+            files_from,
+            up_axis,
+            parameters,
+            variant,
+            at_time,
+            draco: Some(draco::decode),
+            ..ReadOptions::default()
+        };
         let builder = py.detach(|| read_path(Path::new(path), &options)).map_err(|e| errors::read(&e))?;
         PyScene::of(on_stage(builder), path).finished(py, keep)
     }

@@ -134,13 +134,9 @@ pub fn read_exr(path: &Path) -> Result<Picture, ReadError> {
 /// Reads an EXR from memory: R, G, B (or Y three times) as the picture, the rest as layers.
 pub fn read_exr_bytes(bytes: &[u8], limits: &Limits) -> Result<Picture, ReadError> {
     let mut planes = planes(bytes, limits)?;
-    let pixels = match planes.take_rgb("") {
-        Some(rgb) => rgb,
-        None => match planes.take("Y").or_else(|| planes.take_only()) {
-            Some(y) => y.into_iter().map(|y| [y; 3]).collect(),
-            None => return Err(ReadError::new("channels", "there are neither R, G, B nor Y")),
-        },
-    };
+    let only = |planes: &mut Planes| planes.take_only().map(|y| y.into_iter().map(|y| [y; 3]).collect());
+    let found = planes.take_picture().map(|found| found.0).or_else(|| only(&mut planes));
+    let pixels = found.ok_or_else(|| ReadError::new("channels", "there are neither R, G, B nor Y"))?;
     let Planes { width, height, corner: [x, y], whole, .. } = planes;
     let window = Window { x, y, width: whole[0], height: whole[1] };
     let window = (window != Window::of([width, height])).then_some(window);

@@ -26,15 +26,15 @@ pub struct EnvironmentPicture {
 
 /// Reads an environment from memory. Pixels that are NaN, infinite or negative are read as 0, with a warning.
 pub fn environment_picture(bytes: &[u8], limits: &Limits) -> Result<EnvironmentPicture, ReadError> {
+    let mut layer = String::new();
     let (width, height, mut pixels, source) = match bytes {
         [] => return Err(ReadError::new("", "the file is empty (0 bytes)")),
         [0x76, 0x2f, 0x31, 0x01, ..] => {
             let mut planes = planes(bytes, limits)?;
-            let rgb = planes.take_rgb("");
-            let grey = |y: Vec<f32>| y.into_iter().map(|y| [y; 3]).collect();
-            let pixels = rgb.or_else(|| planes.take("Y").map(grey));
-            let pixels =
-                pixels.ok_or_else(|| ReadError::new("channels", "there are neither R, G, B nor Y"))?;
+            let found = planes.take_picture();
+            let (pixels, name) =
+                found.ok_or_else(|| ReadError::new("channels", "there are neither R, G, B nor Y"))?;
+            layer = name;
             (planes.width, planes.height, pixels, "OpenEXR")
         }
         [b'#', b'?', ..] => {
@@ -46,7 +46,11 @@ pub fn environment_picture(bytes: &[u8], limits: &Limits) -> Result<EnvironmentP
             return Err(ReadError::new("", what));
         }
     };
-    let messages = clean(&mut pixels);
+    let mut messages = clean(&mut pixels);
+    if !layer.is_empty() {
+        let text = format!("it has several layers: \"{layer}\" is shown");
+        messages.push(Message { level: Level::Note, place: "layers".into(), text });
+    }
     let image = Image::new(width, height, Texels::Float(pixels));
     let image = image.ok_or_else(|| ReadError::new("", format!("it has {width} × {height} pixels")))?;
     Ok(EnvironmentPicture { image: Arc::new(image), messages, source })

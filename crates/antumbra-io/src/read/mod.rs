@@ -27,6 +27,8 @@ use crate::files::{Files, FolderFiles, read_limited};
 use crate::format::{Format, READS, format_of};
 use crate::limits::{Allowance, Limits};
 
+pub use gltf::draco::{DracoAttribute, DracoDecoder, DracoError, DracoMesh};
+
 pub use environment::{EnvironmentPicture, environment_picture, read_environment};
 
 /// What every reader gets besides the bytes.
@@ -45,6 +47,8 @@ pub(crate) struct Context<'a> {
     pub variant: Option<&'a str>,
     /// The time that animations stand at [s]; at rest without.
     pub at_time: Option<f64>,
+    /// Unpacks Draco meshes.
+    pub draco: Option<DracoDecoder>,
     /// Decoded pictures.
     pub textures: Allowance,
     memory: Allowance,
@@ -104,6 +108,8 @@ pub struct ReadOptions {
     pub variant: Option<String>,
     /// The time that animations stand at [s] (glTF); at rest without.
     pub at_time: Option<f64>,
+    /// Unpacks Draco meshes (glTF); files that need it are refused without.
+    pub draco: Option<DracoDecoder>,
     /// What may be asked for.
     pub limits: Limits,
 }
@@ -143,6 +149,7 @@ fn context<'a>(
         parameters: &options.parameters,
         variant: options.variant.as_deref(),
         at_time: options.at_time,
+        draco: options.draco,
         textures: Allowance::new(limits.texture_bytes),
         memory: Allowance::new(limits.expansion_base),
     };

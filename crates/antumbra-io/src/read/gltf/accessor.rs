@@ -67,6 +67,11 @@ fn lanes(kind: &str) -> Option<usize> {
     }
 }
 
+/// Bytes of one element.
+pub(super) fn element_size(a: &Accessor) -> Option<usize> {
+    Some(component_size(a.component_type)? * lanes(&a.kind)?)
+}
+
 impl<'a> Accessors<'a> {
     fn accessor(&self, index: usize) -> Result<&'a Accessor, ReadError> {
         let n = self.doc.accessors.len();
@@ -77,11 +82,6 @@ impl<'a> Accessors<'a> {
     /// Number of elements.
     pub(super) fn count(&self, index: usize) -> Result<u64, ReadError> {
         Ok(self.accessor(index)?.count)
-    }
-
-    /// The accessor reads from a buffer.
-    pub(super) fn is_backed(&self, index: usize) -> bool {
-        self.accessor(index).is_ok_and(|a| a.buffer_view.is_some())
     }
 
     /// Components of its elements.
@@ -153,18 +153,21 @@ impl<'a> Accessors<'a> {
         }
         let size = component * lanes;
         let too_much = |what: String| fail(what).hint("The file is cut short, or its exporter is wrong.");
-        let (bytes, stride) = match a.buffer_view {
-            Some(view) => self.slice(view, a.byte_offset, a.count, size).map_err(too_much)?,
-            None => (&[] as &[u8], size),
+        let given = self.buffers.accessors.get(&index);
+        let (bytes, stride) = match (given, a.buffer_view) {
+            // Its length was held against the count when it was unpacked.
+            (Some(bytes), _) => (bytes.as_slice(), size),
+            (None, Some(view)) => self.slice(view, a.byte_offset, a.count, size).map_err(too_much)?,
+            (None, None) => (&[] as &[u8], size),
         };
         // What is converted is charged, for many accessors may name the same bytes; so is what has to be made first.
-        let made = a.buffer_view.is_none() || a.sparse.is_some();
+        let is_there = given.is_some() || a.buffer_view.is_some();
+        let made = !is_there || a.sparse.is_some();
         let converted = pick.map_or(a.count, |p| p.len() as u64);
         self.context.take(if made { a.count } else { 0 }, size as u64).map_err(too_much)?;
         self.context.take(converted, 4 * lanes as u64).map_err(too_much)?;
         let count = a.count as usize;
-        let bytes =
-            if a.buffer_view.is_some() { Cow::Borrowed(bytes) } else { Cow::Owned(vec![0; count * size]) };
+        let bytes = if is_there { Cow::Borrowed(bytes) } else { Cow::Owned(vec![0; count * size]) };
         let (component, normalized) = (a.component_type, a.normalized);
         let elements = Elements { bytes, stride, count, size, component, normalized };
         match &a.sparse {
@@ -203,29 +206,7 @@ impl<'a> Accessors<'a> {
 
     /// The bytes of a buffer view.
     pub(super) fn view(&self, view: usize) -> Result<&'a [u8], String> {
-        let n = self.doc.buffer_views.len();
-        let v = self.doc.buffer_views.get(view).ok_or(format!("names buffer view {view}; there are {n}"))?;
-        if let Some(bytes) = self.buffers.unpacked.get(&view) {
-            return Ok(bytes);
-        }
-        let n = self.buffers.files.len();
-        let buffer = self
-            .buffers
-            .files
-            .get(v.buffer)
-            .ok_or_else(|| format!("buffer view {view} names buffer {}; there are {n}", v.buffer))?;
-        let Some(buffer) = buffer else {
-            return Err(format!(
-                "buffer view {view} is not packed, and its buffer {} holds nothing",
-                v.buffer
-            ));
-        };
-        let end = v.byte_offset.checked_add(v.byte_length).filter(|end| *end <= buffer.len() as u64);
-        end.map(|end| &buffer[v.byte_offset as usize..end as usize]).ok_or_else(|| {
-            let (offset, length) = (v.byte_offset, v.byte_length);
-            let has = buffer.len();
-            format!("buffer view {view} has {length} bytes at offset {offset} of a buffer that has {has}")
-        })
+        self.buffers.view(self.doc, view)
     }
 
     /// The elements with the sparse ones put in their places.

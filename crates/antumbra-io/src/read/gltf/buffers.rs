@@ -4,6 +4,7 @@ use std::borrow::Cow;
 use std::collections::HashMap;
 
 use super::document::Document;
+use super::draco;
 use super::meshopt;
 use crate::error::ReadError;
 use crate::read::Context;
@@ -15,6 +16,36 @@ pub(super) struct Buffers<'a> {
     pub files: Vec<Option<Cow<'a, [u8]>>>,
     /// Of the buffer views that were packed.
     pub unpacked: HashMap<usize, Vec<u8>>,
+    /// Of the accessors of primitives that were packed.
+    pub accessors: HashMap<usize, Vec<u8>>,
+}
+
+impl Buffers<'_> {
+    /// The bytes of a buffer view.
+    pub(super) fn view(&self, doc: &Document, view: usize) -> Result<&[u8], String> {
+        let n = doc.buffer_views.len();
+        let v = doc.buffer_views.get(view).ok_or(format!("names buffer view {view}; there are {n}"))?;
+        if let Some(bytes) = self.unpacked.get(&view) {
+            return Ok(bytes);
+        }
+        let n = self.files.len();
+        let buffer = self
+            .files
+            .get(v.buffer)
+            .ok_or_else(|| format!("buffer view {view} names buffer {}; there are {n}", v.buffer))?;
+        let Some(buffer) = buffer else {
+            return Err(format!(
+                "buffer view {view} is not packed, and its buffer {} holds nothing",
+                v.buffer
+            ));
+        };
+        let end = v.byte_offset.checked_add(v.byte_length).filter(|end| *end <= buffer.len() as u64);
+        end.map(|end| &buffer[v.byte_offset as usize..end as usize]).ok_or_else(|| {
+            let (offset, length) = (v.byte_offset, v.byte_length);
+            let has = buffer.len();
+            format!("buffer view {view} has {length} bytes at offset {offset} of a buffer that has {has}")
+        })
+    }
 }
 
 /// Loads what the document names, and unpacks what is packed.
@@ -31,7 +62,9 @@ pub(super) fn load<'a>(
             unpacked.insert(view, bytes);
         }
     }
-    Ok(Buffers { files, unpacked })
+    let mut buffers = Buffers { files, unpacked, accessors: HashMap::new() };
+    buffers.accessors = draco::unpack(doc, |view| buffers.view(doc, view), context)?;
+    Ok(buffers)
 }
 
 fn files<'a>(

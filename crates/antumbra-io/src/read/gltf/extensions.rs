@@ -1,7 +1,7 @@
 //! Which extensions are read, which only touch looks, and which would hide geometry.
 
 use super::document::Document;
-use super::meshopt;
+use super::{draco, meshopt};
 use crate::error::ReadError;
 use crate::read::Counted;
 
@@ -16,6 +16,9 @@ const READ: &[&str] = &[
     "KHR_texture_transform",
     "EXT_mesh_gpu_instancing",
     "EXT_texture_webp",
+    // A texture that uses it says what is shown in its place.
+    "KHR_texture_basisu",
+    draco::NAME,
     meshopt::NAMES[0],
     meshopt::NAMES[1],
 ];
@@ -26,7 +29,6 @@ const NOTHING_TO_SEE: &[&str] =
 
 /// They touch pictures and lights of a kind that can be left out.
 const LOOKS: &[&str] = &[
-    "KHR_texture_basisu",
     "MSFT_texture_dds",
     "EXT_texture_avif",
     "EXT_lights_image_based",
@@ -67,8 +69,8 @@ pub(super) fn check(doc: &Document, said: &mut Counted) -> Result<(), ReadError>
 
 /// What a person can do about geometry that cannot be read.
 pub(super) fn advice(name: &str) -> &'static str {
-    if name == "KHR_draco_mesh_compression" {
-        "The extra that will read it, antumbra[draco], is not there yet: until then, write it without compression:\n\
+    if name == draco::NAME {
+        "`pip install \"antumbra[draco]\"` brings its decoder; or write the file without compression:\n\
          `npx @gltf-transform/cli copy IN.glb OUT.glb` unpacks it."
     } else {
         "Export the scene again without this extension."

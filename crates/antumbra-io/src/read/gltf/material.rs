@@ -12,6 +12,7 @@ use serde::Deserialize;
 
 use super::Reader;
 use super::document::{GltfMaterial, TextureInfo};
+use super::specular::{GLOSSINESS, SPECULAR};
 use super::texture::Images;
 
 /// What was converted already.
@@ -19,20 +20,6 @@ use super::texture::Images;
 pub(super) struct Materials {
     done: HashMap<Option<usize>, MaterialId>,
     pub images: Images,
-}
-
-/// KHR_materials_pbrSpecularGlossiness.
-#[derive(Deserialize)]
-#[serde(default, rename_all = "camelCase")]
-struct SpecularGlossiness {
-    diffuse_factor: [f32; 4],
-    diffuse_texture: Option<TextureInfo>,
-}
-
-impl Default for SpecularGlossiness {
-    fn default() -> SpecularGlossiness {
-        SpecularGlossiness { diffuse_factor: [1.0; 4], diffuse_texture: None }
-    }
 }
 
 /// KHR_materials_transmission.
@@ -50,7 +37,6 @@ fn index_of_refraction(m: &GltfMaterial) -> f32 {
 }
 
 const UNLIT: &str = "KHR_materials_unlit";
-const GLOSSINESS: &str = "KHR_materials_pbrSpecularGlossiness";
 
 impl Reader<'_> {
     /// The material of a primitive, converted at its first use; the default one if it names none.
@@ -79,14 +65,12 @@ impl Reader<'_> {
     fn convert(&mut self, index: usize, m: &GltfMaterial) -> Material {
         let place = format!("material {}", named(index, &m.name));
         self.name_the_missing(m, &place);
-        let base = match m.extensions.get(GLOSSINESS).map(SpecularGlossiness::deserialize) {
-            _ if m.extensions.contains_key(UNLIT) => self.unlit(m),
-            Some(Ok(glossy)) => self.diffuse_part(&glossy),
-            Some(Err(e)) => {
-                self.said.warn(place.clone(), format!("{GLOSSINESS} is broken ({e}): drawn without it"));
-                self.metallic_roughness(m, &place)
-            }
-            None => self.metallic_roughness(m, &place),
+        let base = if m.extensions.contains_key(UNLIT) {
+            self.unlit(m)
+        } else if let Some(glossy) = self.glossiness(m, &place) {
+            glossy
+        } else {
+            self.metallic_roughness(m, &place)
         };
         let alpha = match m.alpha_mode.as_str() {
             "MASK" => Alpha::Mask { cutoff: m.alpha_cutoff },
@@ -122,6 +106,7 @@ impl Reader<'_> {
             opacity: a,
             ..Material::diffuse(base)
         };
+        let opaque = self.specular(m, opaque, place);
         let Some((share, through)) = self.through(m, place) else { return opaque };
         let glass = Material {
             surface: self.glass(m, ior),
@@ -186,13 +171,6 @@ impl Reader<'_> {
         surface
     }
 
-    fn diffuse_part(&mut self, glossy: &SpecularGlossiness) -> Material {
-        let [r, g, b, a] = glossy.diffuse_factor;
-        let color = glossy.diffuse_texture.as_ref().and_then(|t| self.texture(t, true));
-        let surface = Surface::Diffuse { albedo: Rgb::new(r, g, b) };
-        Material { surface, color, opacity: a, ..Material::diffuse(Rgb::BLACK) }
-    }
-
     /// emissiveFactor × strength; a texture on it counts by its mean colour.
     fn emission(&mut self, m: &GltfMaterial, place: &str) -> Option<Emission> {
         let strength = m.extensions.get("KHR_materials_emissive_strength");
@@ -221,9 +199,9 @@ impl Reader<'_> {
             let how = match name.as_str() {
                 "KHR_materials_emissive_strength" | "KHR_materials_variants" => continue,
                 "KHR_materials_transmission" | "KHR_materials_ior" | UNLIT => continue,
+                SPECULAR | GLOSSINESS => continue,
                 "KHR_materials_volume" if m.extensions[name].get("attenuationColor").is_none() => continue,
                 "KHR_materials_volume" => "drawn without the colour of its depth",
-                GLOSSINESS => "drawn with its diffuse part only",
                 _ => "drawn without it",
             };
             self.said.warn(place, format!("asks for {name}, which antumbra does not have: {how}"));

@@ -6,6 +6,7 @@ mod buffers;
 mod camera;
 mod container;
 mod document;
+pub(crate) mod draco;
 mod extensions;
 mod light;
 mod material;
@@ -14,6 +15,7 @@ mod meshopt;
 mod node;
 mod primitive;
 mod skin;
+mod specular;
 mod texture;
 mod variant;
 

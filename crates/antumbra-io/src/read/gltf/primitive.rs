@@ -8,7 +8,6 @@ use antumbra_trace::Triangles;
 use super::Reader;
 use super::accessor::Pick;
 use super::document::Primitive;
-use super::extensions::advice;
 use crate::error::ReadError;
 
 /// How a node bends the meshes that it shows.
@@ -41,7 +40,6 @@ pub(super) struct Meshes {
 const TRIANGLES: u32 = 4;
 const STRIP: u32 = 5;
 const FAN: u32 = 6;
-const DRACO: &str = "KHR_draco_mesh_compression";
 
 impl Reader<'_> {
     /// The mesh of a primitive; `None` if it has no triangles.
@@ -86,10 +84,6 @@ impl Reader<'_> {
             self.said.warn(place, "a primitive has no positions: left out");
             return Ok(None);
         };
-        if p.extensions.contains_key(DRACO) && !self.accessors.is_backed(position) {
-            let what = format!("is compressed with {DRACO}, and the file brings no fallback");
-            return Err(ReadError::new("", what).hint(advice(DRACO)));
-        }
         let n = self.accessors.count(position)?;
         let mut indices = self.triangles(p, key.mode, n)?;
         if indices.is_empty() {

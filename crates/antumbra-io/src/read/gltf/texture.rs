@@ -17,6 +17,8 @@ pub(super) type Images = HashMap<(usize, bool), Option<Arc<Image>>>;
 const NEAREST: u32 = 9728;
 const CLAMP: u32 = 33071;
 const MIRROR: u32 = 33648;
+const BASISU_ALONE: &str = "has only a KTX2 picture (KHR_texture_basisu), which is not read: drawn without it; \
+    `npx @gltf-transform/cli ktxdecompress IN.glb OUT.glb` writes it as PNG";
 
 impl Reader<'_> {
     /// The texture that a material names; `None` after a warning if it cannot be used.
@@ -52,11 +54,20 @@ impl Reader<'_> {
             self.said.warn(format!("texture {}", info.index), text);
             return None;
         };
-        let Some(index) = source(texture) else {
-            let text = "has no picture of a kind that is read (PNG, JPEG, WebP): drawn without it";
-            self.said.warn(format!("texture {}", info.index), text);
-            return None;
+        let packed = texture.extensions.contains_key("KHR_texture_basisu");
+        let index = source(texture);
+        let text = match index {
+            Some(_) if packed => {
+                "has a KTX2 picture (KHR_texture_basisu), which is not read: its fallback is shown"
+            }
+            Some(_) => "",
+            None if packed => BASISU_ALONE,
+            None => "has no picture of a kind that is read (PNG, JPEG, WebP): drawn without it",
         };
+        if !text.is_empty() {
+            self.said.warn(format!("texture {}", info.index), text);
+        }
+        let index = index?;
         if let Some(known) = self.materials.images.get(&(index, srgb)) {
             return known.clone();
         }
