@@ -19,7 +19,7 @@ from typing import Any
 
 ROOT = Path(__file__).resolve().parent.parent
 RESULTS = ROOT / "benches" / "results"
-PEERS = ("numpy", "embreex", "open3d-cpu", "mitsuba")
+PEERS = ("numpy", "embreex", "open3d-cpu", "mitsuba", "trimesh", "rtree", "pyvista")
 
 
 @dataclass

@@ -24,6 +24,10 @@ Index = NDArray[np.int64]
 FAR = 4.0
 # Farther than this, in sizes of the mesh, a place does not move when it is computed again in double precision.
 SHARP = 2.0**-18
+# Between these, directions fit single precision as they are.
+TINY, HUGE = 2.0**-40, 2.0**40
+# Smaller components of a direction are 0: their reciprocals would not fit.
+NONE = 2.0**-100
 
 
 class Rays(NamedTuple):
@@ -60,7 +64,7 @@ class Asked:
 
     @cached_property
     def _single_boxes(self) -> Boxes:
-        return Boxes(self._single_corners)
+        return Boxes(self._single_corners.astype(np.float32))
 
     @cached_property
     def _corners(self) -> Doubles:
@@ -76,11 +80,15 @@ class Asked:
         return is_closed(self._vertices, self._faces)
 
     def rays(self, origins: Doubles, directions: Doubles) -> Rays:
-        """Rays of the world. Directions are scaled by powers of two only, so that they keep all their digits."""
+        """Rays of the world; those that start far away are drawn up to the mesh."""
         o, d = origins - self._origin, directions
-        _, exponents = np.frexp(np.abs(d).max(axis=1, initial=0.0))
-        d = np.ldexp(d, -exponents[:, None])
-        far = np.flatnonzero(np.abs(o).max(axis=1, initial=0.0) > FAR * self._size)
+        length = _largest(d)
+        odd = np.flatnonzero((length < TINY) | (length > HUGE))
+        if len(odd):
+            # By powers of two only, so that directions keep all their digits.
+            d = d.copy()
+            d[odd] = np.ldexp(d[odd], -np.frexp(length[odd])[1][:, None])
+        far = np.flatnonzero(_largest(o) > FAR * self._size)
         if len(far):
             p, along = o[far], d[far]
             length2 = np.einsum("ij,ij->i", along, along)
@@ -88,7 +96,9 @@ class Asked:
             # To where the line is nearest to the origin, less twice the radius of a ball around the mesh.
             steps = -np.einsum("ij,ij->i", p, along) / safe - 2 * np.sqrt(3 / safe) * self._size
             o[far] = p + np.maximum(steps, 0.0)[:, None] * along
-        return Rays(o, d, o.astype(np.float32), d.astype(np.float32))
+        single = d.astype(np.float32)
+        single[np.abs(single) < NONE] = 0
+        return Rays(o, d, o.astype(np.float32), single)
 
     def blocked(self, rays: Rays) -> NDArray[np.bool_]:
         """Whether each ray meets something."""
@@ -109,8 +119,9 @@ class Asked:
         """Ray, face and t of all hits, sorted by ray and distance; each place once."""
         # Only rays that meet something go on.
         met = np.flatnonzero(self.blocked(rays))
-        starts, along = rays.starts[met].astype(np.float64), rays.along[met].astype(np.float64)
-        which, faces, t = crossings(self._single_boxes, self._single_corners, starts, along)
+        which, faces, t = crossings(
+            self._single_boxes, self._single_corners, rays.starts[met], rays.along[met]
+        )
         return met[which], faces, t
 
     def locations(self, rays: Rays, which: Index, faces: Index, t: Doubles) -> Doubles:
@@ -129,3 +140,10 @@ class Asked:
     def contains(self, points: Doubles) -> NDArray[np.bool_]:
         """Whether points lie inside or on the surface."""
         return inside(self._boxes, self._corners, points, self._closed)
+
+
+def _largest(rows_: Doubles) -> Doubles:
+    """The largest absolute component of each row."""
+    x, y, z = np.abs(rows_).T
+    found: Doubles = np.maximum(np.maximum(x, y), z)
+    return found

@@ -20,13 +20,15 @@ def pairs_of(origins: Array, directions: Array, corners: Array, rays: Array, fac
 
 
 def crossings(boxes: Boxes, corners: Array, origins: Array, directions: Array) -> tuple[Array, Array, Array]:
-    """Ray, face and t of every hit, sorted by ray and distance.
+    """Ray, face and t of every hit, sorted by ray and distance. `origins`, `directions` in the precision of the boxes.
 
     Of the faces that a ray meets at the same place (their t are equal as real numbers: at an edge, at a corner, where
     faces lie in one another) the one with the lowest number is named.
     """
     found: list[tuple[Array, Array, Array]] = []
-    for rays, faces in boxes.near(origins, directions):
+    near = boxes.near(origins, directions)
+    origins, directions = origins.astype(np.float64), directions.astype(np.float64)
+    for rays, faces in near:
         met, t = hits(pairs_of(origins, directions, corners, rays, faces))
         found.append((rays[met], faces[met], t))
     if not found:

@@ -94,11 +94,11 @@ def _cells(mesh: Any) -> Triangles:
 def _no_mesh(mesh: Any) -> str:
     """Why this is no mesh, and what would be one."""
     if hasattr(mesh, "extract_surface"):
-        return f"{shown(mesh)} is no surface: give .extract_surface()"
+        return f"the mesh is {shown(mesh)}, which is no surface: give .extract_surface()"
     if hasattr(mesh, "geometry") and hasattr(mesh, "to_mesh"):
-        return f"{shown(mesh)} holds several meshes: give .to_mesh(), or each one"
+        return f"the mesh is {shown(mesh)}, which holds several meshes: give .to_mesh(), or each one"
     if any(hasattr(mesh, name) for name in ("points", "vertices", "point")):
-        return f"{shown(mesh)} has no faces: points and lines cast no shadow"
+        return f"the mesh is {shown(mesh)}, which has no faces: points and lines cast no shadow"
     return "faces are missing: give (F, 3) whole numbers, or a mesh of trimesh, Open3D or PyVista"
 
 

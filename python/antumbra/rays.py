@@ -159,9 +159,11 @@ def _matching(ray_origins: ArrayLike, ray_directions: ArrayLike) -> tuple[Places
 
 
 def _finite(name: str, value: ArrayLike) -> Places:
-    array = rows(name, value).astype(np.float64)
-    finite = np.isfinite(array).all(axis=1)
-    if not finite.all():
-        row = int(np.argmin(finite))
-        raise ValueError(f"{name}[{row}] is {array[row].tolist()}: finite numbers are needed")
+    array = rows(name, value).astype(np.float64, copy=False)
+    # One sum instead of a look at each number; a sum may overflow without a number that is wrong.
+    if not np.isfinite(array.sum()):
+        finite = np.isfinite(array).all(axis=1)
+        if not finite.all():
+            row = int(np.argmin(finite))
+            raise ValueError(f"{name}[{row}] is {array[row].tolist()}: finite numbers are needed")
     return array

@@ -6,10 +6,11 @@ Answers are closed forms, except for the grazed slivers, which are decided in ra
 from __future__ import annotations
 
 from collections.abc import Callable
-from fractions import Fraction
 from typing import Any, NamedTuple
 
 import numpy as np
+
+from solids import box, joined, lattice, meets, sphere
 
 Array = Any
 
@@ -27,63 +28,6 @@ class Case(NamedTuple):
     origins: Array
     directions: Array
     answer: Array
-
-
-def box(size: float = 1.0, cells: int = 1, low: float = 0.0) -> tuple[Array, Array]:
-    """The surface of a cube from `low` to `low + size`, each side cut into cells² squares of two triangles."""
-    ticks = low + size * np.arange(cells + 1) / cells
-    sides = []
-    for axis in range(3):
-        for end in (0, cells):
-            u, v = np.meshgrid(ticks, ticks, indexing="ij")
-            side = np.empty((cells + 1, cells + 1, 3))
-            side[..., axis], side[..., (axis + 1) % 3], side[..., (axis + 2) % 3] = ticks[end], u, v
-            sides.append((side.reshape(-1, 3), _squares(cells) if end else _squares(cells)[:, ::-1]))
-    return joined(*sides)
-
-
-def _squares(cells: int) -> Array:
-    i, j = np.meshgrid(np.arange(cells), np.arange(cells), indexing="ij")
-    a = (i * (cells + 1) + j).reshape(-1)
-    b, c, d = a + cells + 1, a + cells + 2, a + 1
-    return np.concatenate([np.stack([a, b, c], axis=1), np.stack([a, c, d], axis=1)])
-
-
-def joined(*meshes: tuple[Array, Array]) -> tuple[Array, Array]:
-    """Several meshes as one; corners at the same place become one corner."""
-    starts = np.cumsum([0] + [len(v) for v, _ in meshes])
-    vertices, faces = (
-        np.concatenate([v for v, _ in meshes]),
-        [f + s for (_, f), s in zip(meshes, starts, strict=False)],
-    )
-    kept, same = np.unique(vertices, axis=0, return_inverse=True)
-    return kept, same.reshape(-1)[np.concatenate(faces)]
-
-
-def sphere(radius: float, rings: int = 20) -> tuple[Array, Array]:
-    """A sphere of latitudes and longitudes, 2 · rings around."""
-    theta = np.pi * np.arange(1, rings)[:, None] / rings
-    phi = np.pi * np.arange(2 * rings)[None] / rings
-    round_ = np.stack(
-        np.broadcast_arrays(np.sin(theta) * np.cos(phi), np.sin(theta) * np.sin(phi), np.cos(theta)), 2
-    )
-    vertices = radius * np.concatenate([round_.reshape(-1, 3), [[0, 0, 1], [0, 0, -1]]])
-    i, j = (x.reshape(-1) for x in np.meshgrid(np.arange(rings - 2), np.arange(2 * rings), indexing="ij"))
-    n, j1, ring = 2 * rings, (j + 1) % (2 * rings), np.arange(2 * rings)
-    a, b, c, d = i * n + j, (i + 1) * n + j, (i + 1) * n + j1, i * n + j1
-    top, bottom, ahead = len(vertices) - 2, len(vertices) - 1, (ring + 1) % n
-    last = (rings - 2) * n
-    caps = [
-        np.stack([np.full(n, top), ring, ahead], axis=1),
-        np.stack([np.full(n, bottom), last + ahead, last + ring], axis=1),
-    ]
-    return vertices, np.concatenate([np.stack([a, b, c], 1), np.stack([a, c, d], 1), *caps])
-
-
-def lattice(low: float, high: float, step: float) -> Array:
-    """All points of a grid, (N, 3)."""
-    ticks = np.arange(low, high + step / 2, step)
-    return np.stack(np.meshgrid(ticks, ticks, ticks, indexing="ij"), axis=-1).reshape(-1, 3)
 
 
 def through_corners() -> Case:
@@ -156,9 +100,9 @@ def nested() -> Case:
 
 
 def far_map() -> Case:
-    """A tilted square in map coordinates; rays that start a little above it, down to it and away from it."""
-    corners = np.array([[-4.0, -3, 0], [4, -3, 1], [4, 3, 1], [-4, 3, 0]]) + [528980.85, 183526.1, 40]
-    normal = np.array([-1, 0, 8]) / np.sqrt(65)
+    """A wall in map coordinates; rays that start 2 mm and 1 cm in front of it, to it and away from it."""
+    corners = np.array([[-4.0, -3, 0], [4, 3, 1], [4, 3, 7], [-4, -3, 6]]) + [528980.85, 183526.1, 40]
+    normal = np.array([3, -4, 0]) / 5
     rng = np.random.default_rng(48)
     weights = rng.dirichlet([2, 2, 2], 200)
     points = weights @ corners[:3]
@@ -167,7 +111,7 @@ def far_map() -> Case:
     directions = np.concatenate([np.tile(-normal, (200, 1)), np.tile(normal, (200, 1))])
     return Case(
         "trimesh #48",
-        "2 mm and 1 cm above a roof in map coordinates: down hits, away misses",
+        "2 mm and 1 cm before a wall in map coordinates: to it hits, away misses",
         corners,
         np.array([[0, 1, 2], [0, 2, 3]]),
         "blocked",
@@ -292,6 +236,81 @@ def grazed_slivers() -> Case:
     )
 
 
+def leaving() -> Case:
+    """Rays that start in a face, on an edge or at a corner of a cube's triangles and leave it."""
+    ticks = np.arange(0, 9) / 8
+    u, v = (x.reshape(-1) for x in np.meshgrid(ticks, ticks))
+    origins = np.stack([u, v, np.ones(81)], axis=1)
+    rng = np.random.default_rng(5430)
+    directions = np.column_stack([rng.uniform(-1, 1, (81, 2)), rng.uniform(0.1, 1, 81)])
+    return Case(
+        "Open3D #5430, trimesh #331",
+        "away from points of a cube's upper side: free",
+        *box(1, 4),
+        "blocked",
+        origins,
+        directions,
+        np.zeros(81, bool),
+    )
+
+
+def from_within() -> Case:
+    """Rays from a point in a flat, closed body through its corners and the middles of its edges: none leaves it."""
+    vertices, faces = sphere(1.0, 24)
+    rng = np.random.default_rng(1149)
+    turn, _ = np.linalg.qr(rng.normal(size=(3, 3)))
+    vertices = vertices * [1, 0.3, 0.01] @ turn + [3.0, -2, 1]
+    middles = (vertices[faces] + vertices[np.roll(faces, 1, axis=1)]).reshape(-1, 3) / 2
+    aims = rng.permutation(np.concatenate([vertices, middles]))[:1000]
+    start = np.array([3.0, -2, 1])
+    return Case(
+        "Mitsuba #1149, trimesh #1180",
+        "out of a closed body through corners and edges",
+        vertices,
+        faces,
+        "blocked",
+        np.tile(start, (len(aims), 1)),
+        aims - start,
+        np.ones(len(aims), bool),
+    )
+
+
+def lens() -> Case:
+    """Rays through points near the rim of a convex lens: each goes in once and out once."""
+    vertices, faces = sphere(1.0, 12)
+    vertices = vertices * [1, 1, 1e-3]
+    rng = np.random.default_rng(457)
+    angle, height = rng.uniform(0, 2 * np.pi, 400), rng.uniform(-0.1, 0.1, 400)
+    out = np.sqrt(rng.uniform(0.5, 0.92, 400))
+    aims = np.column_stack([out * np.cos(angle), out * np.sin(angle), 1e-3 * height])
+    directions = rng.normal(size=(400, 3)) * [0.3, 0.3, 1]
+    return Case(
+        "trimesh #457, #242",
+        "through the rim of a lens: in and out, two hits",
+        vertices,
+        faces,
+        "count",
+        aims - 4 * directions,
+        directions,
+        np.full(400, 2),
+    )
+
+
+def thin_wall() -> Case:
+    """Points of a grid in a closed box whose walls are 2⁻²¹ of its size: they are not in the solid."""
+    outer, inner = box(1, 3), box(1 - 2.0**-20, 3, 2.0**-21)
+    points = lattice(0.09375, 0.90625, 0.0625)
+    return Case(
+        "trimesh #2534, #1097",
+        "points of a grid in a box with thin walls: none is in them",
+        *joined(outer, (inner[0], inner[1][:, ::-1])),
+        "inside",
+        points,
+        points,
+        np.zeros(len(points), bool),
+    )
+
+
 def cube_inside() -> Case:
     """Points of a grid around a cube: rays from them run along its edges and diagonals."""
     points = lattice(-1, 2, 0.25)
@@ -354,26 +373,11 @@ CASES: list[Callable[[], Case]] = [
     crate,
     along_a_step,
     grazed_slivers,
+    leaving,
+    from_within,
+    lens,
     cube_inside,
     ball_inside,
     hollow,
+    thin_wall,
 ]
-
-
-def meets(origin: Array, direction: Array, corners: Array) -> Fraction | None:
-    """t where a ray meets a closed triangle that is not parallel to it, in rational numbers; None if it does not."""
-    o, d = ([Fraction(float(x)) for x in v] for v in (origin, direction))
-    a, b, c = ([Fraction(float(x)) - y for x, y in zip(corner, o, strict=True)] for corner in corners)
-    w = [_dot(d, _cross(p, q)) for p, q in ((a, b), (b, c), (c, a))]
-    det, v = sum(w), _dot(a, _cross(b, c))
-    if det == 0 or any(side * det < 0 for side in w) or v * det <= 0:
-        return None
-    return v / det
-
-
-def _cross(p: list[Fraction], q: list[Fraction]) -> list[Fraction]:
-    return [p[i] * q[j] - p[j] * q[i] for i, j in ((1, 2), (2, 0), (0, 1))]
-
-
-def _dot(p: list[Fraction], q: list[Fraction]) -> Fraction:
-    return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]

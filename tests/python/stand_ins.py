@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
+
+from solids import normals_of_torus, torus
 
 Array = Any
 
@@ -69,7 +72,47 @@ class Surface:
         self.lines, self.strips, self.verts = (cells.get(kind, ()) for kind in ("lines", "strips", "verts"))
         self.point_data = {} if normals is None else {"Normals": np.asarray(normals)}
 
+    def __setitem__(self, name: str, values: Array) -> None:
+        self.point_data[name] = values
+
 
 def cells(*faces: Array) -> list[int]:
     """Polygons as PyVista keeps them."""
     return [number for face in faces for number in (len(face), *face)]
+
+
+class Grid:
+    """`pyvista.StructuredGrid` of heights: its surface has one quad a cell."""
+
+    def __init__(self, x: Array, y: Array, z: Array) -> None:
+        self._places = np.stack([x, y, z], axis=-1)
+
+    def extract_surface(self) -> Surface:
+        rows, columns, _ = self._places.shape
+        number = np.arange(rows * columns).reshape(rows, columns)
+        corners = number[:-1, :-1], number[1:, :-1], number[1:, 1:], number[:-1, 1:]
+        return Surface(
+            self._places.reshape(-1, 3), cells(*np.stack([c.reshape(-1) for c in corners], axis=1))
+        )
+
+
+class Ring(Trimesh):
+    """`trimesh.creation.torus`."""
+
+    def __init__(self, major_radius: float, minor_radius: float) -> None:
+        vertices, faces = torus(major_radius, minor_radius)
+        super().__init__(vertices, faces, normals_of_torus(vertices, major_radius))
+        self.visual = SimpleNamespace()
+
+    def export(self, path: str) -> None:
+        """Nothing is written."""
+
+
+def modules() -> dict[str, Any]:
+    """What `import` gives in the examples of docs/bridges.md where a library is not installed."""
+    shapes = SimpleNamespace(create_torus=lambda: Tensors(*torus(1.0, 0.5)))
+    return {
+        "pyvista": SimpleNamespace(StructuredGrid=Grid),
+        "trimesh": SimpleNamespace(creation=SimpleNamespace(torus=Ring)),
+        "open3d": SimpleNamespace(t=SimpleNamespace(geometry=SimpleNamespace(TriangleMesh=shapes))),
+    }

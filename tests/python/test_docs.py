@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import doctest
 import importlib
+import importlib.util
 import pkgutil
 import re
 import shlex
 import shutil
+import sys
 
 import numpy as np
 import pytest
@@ -15,6 +17,7 @@ import pytest
 import antumbra
 from antumbra import _core
 from common import ROOT
+from stand_ins import modules
 
 MODULES = [
     m.name for m in pkgutil.iter_modules(antumbra.__path__, "antumbra.") if not m.name.endswith("__main__")
@@ -39,12 +42,18 @@ def blocks(*languages):
 
 @pytest.fixture
 def room(data, tmp_path, monkeypatch):
-    """A folder with the files that the pages speak of: room.glb, mine.py, ours.exr and reference.exr."""
+    """A folder with the files that the pages speak of: room.glb, mine.py, ours.exr and reference.exr.
+
+    Libraries that the pages import and that are not installed are stood in for.
+    """
     shutil.copy(data / "scenes" / "gltf" / "BoxInterleaved.glb", tmp_path / "room.glb")
     for name, value in (("ours.exr", 0.5), ("reference.exr", 0.6)):
         _core.write_picture(str(tmp_path / name), np.full((8, 8, 3), value, np.float32))
     (own,) = [code for page, code in blocks("python") if page == "own.md"]
     (tmp_path / "mine.py").write_text(own, encoding="utf-8")
+    for name, stand_in in modules().items():
+        if importlib.util.find_spec(name) is None:
+            monkeypatch.setitem(sys.modules, name, stand_in)
     monkeypatch.chdir(tmp_path)
 
 

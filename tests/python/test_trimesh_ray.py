@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import antumbra as am
-from reported import box, joined, lattice, meets
+from solids import box, joined, lattice, meets
 
 
 def mesh_of(vertices, faces):
@@ -73,6 +73,35 @@ def test_the_law_of_pairs_is_that_of_rational_numbers_where_it_is_close():
     assert met.tolist() == [i for i, one in enumerate(truth) if one is not None]
     # LAW: the parameter of a hit is right to 2⁻²⁹ relatively.
     np.testing.assert_allclose(t, [float(one) for one in truth if one is not None], rtol=2.0**-29)
+
+
+@pytest.mark.parametrize("kind", [np.float32, np.float64])
+@pytest.mark.parametrize("scale", [1.0, 2.0**-100, 2.0**90])
+def test_no_box_hides_a_triangle(kind, scale):
+    from antumbra._boxes import Boxes
+    from antumbra._crossings import pairs_of
+    from antumbra._law import hits
+
+    rng = np.random.default_rng(13)
+    # Flat boxes, slivers and points; rays along axes, and aimed at corners from near and far.
+    corners = (
+        rng.normal(size=(90, 3, 3)) * rng.choice([0, 1e-6, 1], (90, 1, 3)) + rng.normal(size=(90, 1, 3))
+    ).astype(kind)
+    aims = corners[rng.integers(0, 90, 600), rng.integers(0, 3, 600)]
+    directions = (rng.normal(size=(600, 3)) * rng.choice([0, 1e-3, 1], (600, 3))).astype(kind)
+    directions[~directions.any(axis=1), 0] = 1
+    origins = (aims - directions * rng.choice([0.5, 4, 1e6], (600, 1)).astype(kind)).astype(kind)
+    corners, origins = (corners * kind(scale)), (origins * kind(scale))
+    rays, faces = (x.reshape(-1) for x in np.meshgrid(np.arange(600), np.arange(90), indexing="ij"))
+    doubles = (x.astype(np.float64) for x in (origins, directions, corners))
+    met, _ = hits(pairs_of(*doubles, rays, faces))
+    near = {
+        (int(r), int(f))
+        for part in Boxes(corners).near(origins, directions)
+        for r, f in zip(*part, strict=True)
+    }
+    missing = {(int(rays[i]), int(faces[i])) for i in met} - near
+    assert len(met) > 300 and not missing
 
 
 def test_shapes_and_kinds_of_numbers():
