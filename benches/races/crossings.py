@@ -1,6 +1,6 @@
 """`trimesh_ray` against the two engines of trimesh: the same rays, one thread, in turn.
 
-trimesh's own engine gets a fiftieth of the rays; what is compared is the time of one ray. Both peers answer with their
+trimesh's own engine gets one in 250 of the rays; what is compared is the time of one ray. Both peers answer with their
 own rounding: how many rays differ stands beside it (`benches/engines.py` says who is right where answers are known).
 """
 
@@ -19,7 +19,7 @@ from race import Row, cores, in_turn, options, report, spread
 Array = NDArray[Any]
 NUMBER = "9"
 # So many times fewer rays for the engine without a compiled core.
-FEWER = 50
+FEWER = 250
 # What is asked: how the answer is made, and which numbers of it are compared.
 QUESTIONS: dict[str, Callable[[Any, Array, Array], Array]] = {
     "intersects_any": lambda ray, o, d: ray.intersects_any(o, d),

@@ -35,6 +35,18 @@ def numbers(name: str, value: Any) -> Array:
     return cast("Array", array if readable else array.astype(np.float64))
 
 
+def finite(name: str, value: Any) -> NDArray[np.float64]:
+    """(N, 3) float64, all finite."""
+    array = rows(name, value).astype(np.float64, copy=False)
+    # One sum instead of a look at each number; a sum may overflow without a number that is wrong.
+    with np.errstate(over="ignore"):
+        sound = np.isfinite(array.sum())
+    if not sound and not np.isfinite(array).all():
+        row = int(np.argmin(np.isfinite(array).all(axis=1)))
+        raise ValueError(f"{name}[{row}] is {array[row].tolist()}: finite numbers are needed")
+    return array
+
+
 def matching(name: str, value: Any, other: str, count: int, columns: int = 3) -> Array:
     """Rows, one for each of the `count` rows of `other`; a single vector stands for all."""
     array = numbers(name, value)

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from antumbra._arrays import indices, rows
+from antumbra._arrays import finite, indices
 from antumbra._boxes import Boxes
 from antumbra._crossings import crossings
 from antumbra._inside import inside, is_closed
@@ -31,7 +31,7 @@ NONE = 2.0**-100
 
 
 class Rays(NamedTuple):
-    """Rays relative to the mesh's origin, (N, 3) each: as given, and as the core takes them."""
+    """Rays relative to the mesh's origin and in its unit, (N, 3) each: as given, and as the core takes them."""
 
     origins: Doubles
     directions: Doubles
@@ -44,14 +44,16 @@ class Asked:
 
     def __init__(self, mesh: Triangles) -> None:
         """Raises ValueError or TypeError for arrays that are no triangles."""
-        self._vertices = rows("vertices", mesh.vertices).astype(np.float64)
+        self._vertices = finite("vertices", mesh.vertices)
         self._faces = indices("faces", mesh.faces, 3, len(self._vertices), "vertex").astype(np.int64)
         self.count = len(self._faces)
         low, high = self._vertices.min(axis=0), self._vertices.max(axis=0)
         # A coarse grid: coordinates that single precision holds lose nothing when such a number is taken from them.
         step = 2.0 ** np.ceil(np.log2(2 * np.max(high - low))) if np.any(high > low) else 1.0
         self._origin = np.round((low + high) / 2 / step) * step
-        self._local = self._vertices - self._origin
+        # In units of a power of two, which loses nothing, the size is 1/2 to 1: none is too large or too small.
+        self._unit = 2.0 ** np.frexp(np.abs(self._vertices - self._origin).max())[1]
+        self._local = (self._vertices - self._origin) / self._unit
         self._single = self._local.astype(np.float32)
         self._size = float(np.abs(self._local).max())
         self._scene = Scene()
@@ -68,7 +70,7 @@ class Asked:
 
     @cached_property
     def _corners(self) -> Doubles:
-        corners: Doubles = self._vertices[self._faces]
+        corners: Doubles = (self._vertices / self._unit)[self._faces]
         return corners
 
     @cached_property
@@ -81,7 +83,7 @@ class Asked:
 
     def rays(self, origins: Doubles, directions: Doubles) -> Rays:
         """Rays of the world; those that start far away are drawn up to the mesh."""
-        o, d = origins - self._origin, directions
+        o, d = (origins - self._origin) / self._unit, directions
         length = _largest(d)
         odd = np.flatnonzero((length < TINY) | (length > HUGE))
         if len(odd):
@@ -90,15 +92,25 @@ class Asked:
             d[odd] = np.ldexp(d[odd], -np.frexp(length[odd])[1][:, None])
         far = np.flatnonzero(_largest(o) > FAR * self._size)
         if len(far):
-            p, along = o[far], d[far]
-            length2 = np.einsum("ij,ij->i", along, along)
-            safe = np.where(length2 > 0, length2, 1.0)
-            # To where the line is nearest to the origin, less twice the radius of a ball around the mesh.
-            steps = -np.einsum("ij,ij->i", p, along) / safe - 2 * np.sqrt(3 / safe) * self._size
-            o[far] = p + np.maximum(steps, 0.0)[:, None] * along
+            o, d = o.copy(), d.copy()
+            o[far], d[far] = self._drawn_up(o[far], d[far])
         single = d.astype(np.float32)
         single[np.abs(single) < NONE] = 0
         return Rays(o, d, o.astype(np.float32), single)
+
+    def _drawn_up(self, o: Doubles, d: Doubles) -> tuple[Doubles, Doubles]:
+        """Starts near the mesh on the same rays; those that surely pass it stand at 0 without a direction."""
+        ball = 2 * np.sqrt(3) * self._size
+        with np.errstate(all="ignore"):
+            d = d / np.sqrt(np.einsum("ij,ij->i", d, d))[:, None]
+            toward = np.einsum("ij,ij->i", o, d) < 0
+            # To where the line is nearest to the origin; again, because the first step is as coarse as it is long.
+            for _ in range(2):
+                o = o - np.einsum("ij,ij->i", o, d)[:, None] * d
+            passes = ~(toward & (np.einsum("ij,ij->i", o, o) <= ball * ball))
+        o, d = o - ball * d, d.copy()
+        o[passes], d[passes] = 0.0, 0.0
+        return o, d
 
     def blocked(self, rays: Rays) -> NDArray[np.bool_]:
         """Whether each ray meets something."""
@@ -134,12 +146,12 @@ class Asked:
             reach = dot(minus(a, o), normal) / dot(d, normal)
             double = np.stack(o, axis=1) + reach[:, None] * np.stack(d, axis=1)
             sharp = np.abs(double - single).max(axis=1, initial=0.0) <= SHARP * self._size
-        places: Doubles = self._origin + np.where(sharp[:, None], double, single)
+        places: Doubles = self._origin + self._unit * np.where(sharp[:, None], double, single)
         return places
 
     def contains(self, points: Doubles) -> NDArray[np.bool_]:
         """Whether points lie inside or on the surface."""
-        return inside(self._boxes, self._corners, points, self._closed)
+        return inside(self._boxes, self._corners, points / self._unit, self._closed)
 
 
 def _largest(rows_: Doubles) -> Doubles:

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from antumbra._arrays import rows
+from antumbra._arrays import finite
 from antumbra._asked import Asked
 from antumbra._meshes import mesh_of
 
@@ -124,7 +124,7 @@ class TrimeshRay:
         solids of one mesh share. Exact for a mesh whose every edge belongs to an even number of faces; for one with
         open edges the majority of six directions decides.
         """
-        return self._current().contains(_finite("points", points))
+        return self._current().contains(finite("points", points))
 
     def _current(self) -> Asked:
         """The mesh as it is now."""
@@ -149,21 +149,10 @@ def _version(mesh: Any) -> int:
 
 
 def _matching(ray_origins: ArrayLike, ray_directions: ArrayLike) -> tuple[Places, Places]:
-    origins, directions = _finite("ray_origins", ray_origins), _finite("ray_directions", ray_directions)
+    origins, directions = finite("ray_origins", ray_origins), finite("ray_directions", ray_directions)
     if origins.shape != directions.shape:
         raise ValueError(
             f"ray_origins has shape {origins.shape}, ray_directions has shape {directions.shape}: one direction per "
             "origin is needed"
         )
     return origins, directions
-
-
-def _finite(name: str, value: ArrayLike) -> Places:
-    array = rows(name, value).astype(np.float64, copy=False)
-    # One sum instead of a look at each number; a sum may overflow without a number that is wrong.
-    if not np.isfinite(array.sum()):
-        finite = np.isfinite(array).all(axis=1)
-        if not finite.all():
-            row = int(np.argmin(finite))
-            raise ValueError(f"{name}[{row}] is {array[row].tolist()}: finite numbers are needed")
-    return array

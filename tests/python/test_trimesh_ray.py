@@ -123,6 +123,20 @@ def test_shapes_and_kinds_of_numbers():
     assert repr(ray) == "<TrimeshRay: 48 faces>"
 
 
+@pytest.mark.parametrize("size", [1e-300, 1e-30, 1e30, 1e300])
+def test_no_size_and_no_distance_is_too_large(size):
+    vertices, faces = box(1, 2)
+    ray = am.trimesh_ray(mesh_of(vertices * size, faces))
+    starts = np.array([[0.25, 0.375, -1], [0.25, 0.375, -1e6], [0.25, 0.375, 2], [7e5, 3, -1e6]]) * size
+    locations, rays, _ = ray.intersects_location(starts, [[0, 0, size]] * 4)
+    assert rays.tolist() == [0, 0, 1, 1]
+    np.testing.assert_allclose(locations / size, [[0.25, 0.375, 0], [0.25, 0.375, 1]] * 2, rtol=0, atol=1e-12)
+    assert ray.contains_points(np.array([[0.5, 0.5, 0.5], [0.5, 1.5, 0.5]]) * size).tolist() == [True, False]
+    far = min(1e200 * size, 1e305)
+    starts = [[0.25 * size, 0.375 * size, far], [far, far, far]]
+    assert ray.intersects_any(starts, [[0.0, 0, -1], [1, 1, 1]]).tolist() == [True, False]
+
+
 def test_the_number_of_hits_can_be_limited():
     sheets = joined(*[box(1, 1, 2.0 * k) for k in range(3)])
     ray = am.trimesh_ray(mesh_of(*sheets))
@@ -233,6 +247,10 @@ def test_it_is_copied_and_pickled_as_its_mesh():
         (lambda r: r.intersects_any([[0, 0, 0]], [[0, 0, 1]] * 2), "one direction per origin is needed"),
         (lambda r: r.intersects_id([0, 0, 0], [0, 0, 1]), "ray_origins has shape (3,): (N, 3) is needed"),
         (lambda r: r.intersects_first([[0, 0, np.nan]], [[0, 0, 1]]), "ray_origins[0] is [0.0, 0.0, nan]"),
+        (
+            lambda r: am.trimesh_ray(mesh_of([[0, 0, 0], [1, 0, np.nan], [0, 1, 0]], [[0, 1, 2]])),
+            "vertices[1] is [1.0",
+        ),
         (lambda r: r.contains_points([[0, 0, 0], [0, np.inf, 0]]), "points[1] is [0.0, inf, 0.0]"),
         (
             lambda r: am.trimesh_ray(mesh_of(np.zeros((0, 3)), np.zeros((0, 3), int))),
