@@ -61,6 +61,7 @@ class Scene:
         keep: bool = True,
         variant: str | None = None,
         at_time: float | None = None,
+        animation: str | None = None,
     ) -> Scene: ...
     @property
     def name(self) -> str: ...

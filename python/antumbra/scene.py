@@ -40,6 +40,7 @@ def load(
     parameters: Mapping[str, str | float] | None = None,
     variant: str | None = None,
     at_time: float | None = None,
+    animation: str | None = None,
 ) -> Scene:
     """Reads a scene: glTF/GLB, OBJ, PLY, STL, Mitsuba 3 XML, pbrt-v4, or a lat-long picture (and a scene under it).
 
@@ -47,7 +48,8 @@ def load(
     may reach (default: its own folder); `parameters`: values for what a Mitsuba file declares as `<default>`. The
     settings that such a file asks for (samples, filter, estimator) hold where `render` is told nothing else.
 
-    Of glTF, `variant`: the variant of materials; `at_time`: the time [s] that its animations stand at, at rest without.
+    Of glTF, `variant`: the variant of materials; `at_time`: the time [s] that its animations stand at, at rest without;
+    `animation`: the one that plays, else all that can play together.
 
     Raises SceneError with .file, .place and .hint.
 
@@ -61,7 +63,10 @@ def load(
     ]
     look = None if variant is None else text("variant", variant)
     time = None if at_time is None else number("at_time", at_time)
-    core = _core.Scene.load(text("path", path), up_axis, folder, given, variant=look, at_time=time)
+    clip = None if animation is None else text("animation", animation)
+    core = _core.Scene.load(
+        text("path", path), up_axis, folder, given, variant=look, at_time=time, animation=clip
+    )
     return Scene._of(core)
 
 

@@ -64,6 +64,21 @@ def test_a_time_is_a_keyword_of_load_and_an_option_of_info(antumbra, moving):
         am.load(moving, at_time=float("nan"))
 
 
+def test_a_camera_moves_with_its_node(antumbra, tmp_path, moving):
+    camera = {"perspective": {"yfov": 1.0}}
+    file = tmp_path / "camera.gltf"
+    file.write_text(
+        json.dumps(triangle(nodes=[{"mesh": 0, "camera": 0}], cameras=[camera | {"type": "perspective"}]))
+    )
+    for time, x in ((0, 0.0), (1.5, 3.0)):
+        origins, _ = am.load(file, at_time=time).camera_rays(size=(2, 2), viewing_rays=1)
+        np.testing.assert_array_equal(
+            origins.reshape(-1, 3), np.tile([x, 0, 0], (len(origins.reshape(-1, 3)), 1))
+        )
+    ended = antumbra("info", str(file), "--animation", "jump")
+    assert ended.code == 2 and 'there is no animation "jump"' in ended.err and "There are: 0." in ended.err
+
+
 def test_an_unknown_variant_lists_those_that_exist(antumbra, tmp_path, moving, data):
     names = {"KHR_materials_variants": {"variants": [{"name": "oak"}, {"name": "birch"}]}}
     chosen = {"KHR_materials_variants": {"mappings": [{"material": 0, "variants": [1]}]}}

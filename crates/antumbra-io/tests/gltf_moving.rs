@@ -123,6 +123,7 @@ fn broken_animations_say_where_and_clips_are_not_mixed() {
     made.floats("SCALAR", 1, &[0.0, 1.0]);
     made.floats("VEC3", 3, &[1.0, 0.0, 0.0, 2.0, 0.0, 0.0]);
     made.floats("SCALAR", 1, &[1.0, 1.0]);
+    made.floats("VEC3", 3, &[7.0, 0.0, 0.0, 8.0, 0.0, 0.0]);
     let channel = r#"{"sampler":0,"target":{"node":0,"path":"translation"}}"#;
     let read = |channels: &str, sampler: &str| {
         let one = format!(r#"{{"name":"walk","channels":[{channels}],"samplers":[{sampler}]}}"#);
@@ -132,6 +133,22 @@ fn broken_animations_say_where_and_clips_are_not_mixed() {
     let s = read(channel, good).unwrap();
     assert_eq!(s.objects[0].transform.translation, DVec3::new(2.0, 0.0, 0.0));
     assert!(s.messages.iter().any(|m| m.text.contains("an earlier animation")), "{:?}", s.messages);
+    // Named, one clip plays alone, at 0 where no time is said.
+    let clips = |second: &str, name: &str| {
+        let clip = |name: &str, output: u32| {
+            format!(
+                r#"{{"name":"{name}","channels":[{channel}],"samplers":[{{"input":1,"output":{output}}}]}}"#
+            )
+        };
+        let rest = format!(r#"{ONE_NODE}{PLAIN},"animations":[{},{}]"#, clip("walk", 2), clip(second, 4));
+        made.read_with(&rest, &ReadOptions { animation: Some(name.into()), ..ReadOptions::default() })
+    };
+    for (second, name, x) in [("run", "walk", 1.0), ("run", "run", 7.0), ("", "1", 7.0)] {
+        let s = clips(second, name).unwrap();
+        assert!(s.messages.is_empty() && s.objects[0].transform.translation.x == x, "{:?}", s.messages);
+    }
+    let e = clips("run", "jump").unwrap_err();
+    assert!(e.what.contains("jump") && e.hint.contains("walk, run"), "{e}");
     for (channel, sampler, word) in [
         (channel, r#"{"input":3,"output":2}"#, "do not increase"),
         (channel, r#"{"input":1,"output":2,"interpolation":"CUBICSPLINE"}"#, "need 18"),

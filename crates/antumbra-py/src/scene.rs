@@ -139,7 +139,7 @@ impl PyScene {
     /// A scene from a file.
     #[staticmethod]
     #[pyo3(signature = (path, up_axis = None, files_from = None, parameters = Vec::new(), keep = true,
-        variant = None, at_time = None))]
+        variant = None, at_time = None, animation = None))]
     #[allow(clippy::too_many_arguments, reason = "they are keywords in Python")]
     fn load(
         py: Python<'_>,
@@ -150,6 +150,7 @@ impl PyScene {
         keep: bool,
         variant: Option<String>,
         at_time: Option<f64>,
+        animation: Option<String>,
     ) -> PyResult<PyScene> {
         let up_axis = match up_axis {
             None => UpAxis::default(),
@@ -163,6 +164,7 @@ impl PyScene {
             parameters,
             variant,
             at_time,
+            animation,
             draco: Some(draco::decode),
             ..ReadOptions::default()
         };

@@ -59,7 +59,7 @@ def wanted(frames: str | None, fps: float | None, scene: str, reading: Mapping[s
         )
     if "at_time" in reading:
         raise click.UsageError("--at-time and --frames: one of the two says the time")
-    if not Path(scene).is_file():
+    if not (Path(scene).exists() or "." in scene or "/" in scene):
         raise click.UsageError(f'--frames is for glTF files: "{scene}" is none')
     if fps is not None and not 0 < fps < float("inf"):
         raise click.UsageError(f"--fps {fps:g}: a positive number is needed")

@@ -27,6 +27,8 @@ def options() -> list[Option]:
                help="the variant of materials of a glTF file (default: the file's first look)"),
         Option("--at-time", group="Files", metavar="SECONDS", type=float, reading=True,
                help="the time that the animations of a glTF file stand at (default: at rest)"),
+        Option("--animation", group="Files", metavar="NAME", reading=True,
+               help="the animation of a glTF file that plays (default: all that can play together)"),
     ]  # fmt: skip
 
 

@@ -45,6 +45,8 @@ pub(crate) struct Context<'a> {
     pub parameters: &'a [(String, String)],
     /// The variant of materials that is wanted, by name.
     pub variant: Option<&'a str>,
+    /// The one animation that plays, by name; all that can play together without.
+    pub animation: Option<&'a str>,
     /// The time that animations stand at [s]; at rest without.
     pub at_time: Option<f64>,
     /// Unpacks Draco meshes.
@@ -106,7 +108,9 @@ pub struct ReadOptions {
     pub parameters: Vec<(String, String)>,
     /// The variant of materials that is wanted, by name (glTF); those of the file itself without.
     pub variant: Option<String>,
-    /// The time that animations stand at [s] (glTF); at rest without.
+    /// The one animation that plays, by name (glTF); all that can play together without.
+    pub animation: Option<String>,
+    /// The time that animations stand at [s] (glTF); at rest without, or at 0 where one is named.
     pub at_time: Option<f64>,
     /// Unpacks Draco meshes (glTF); files that need it are refused without.
     pub draco: Option<DracoDecoder>,
@@ -148,7 +152,8 @@ fn context<'a>(
         named_glb,
         parameters: &options.parameters,
         variant: options.variant.as_deref(),
-        at_time: options.at_time,
+        animation: options.animation.as_deref(),
+        at_time: options.at_time.or(options.animation.as_ref().map(|_| 0.0)),
         draco: options.draco,
         textures: Allowance::new(limits.texture_bytes),
         memory: Allowance::new(limits.expansion_base),

@@ -60,11 +60,35 @@ pub(super) fn end(doc: &Document) -> f64 {
     ends.fold(0.0, f64::max)
 }
 
-/// All animations at a time [s]. One that moves what an earlier one moves is left out with a warning: players show
-/// such clips one at a time.
-pub(super) fn pose(accessors: &Accessors, time: f64, said: &mut Counted) -> Result<Pose, ReadError> {
+/// The names of the animations; their numbers where they have none.
+pub(super) fn names(doc: &Document) -> Vec<String> {
+    let name = |(i, a): (usize, &Animation)| if a.name.is_empty() { i.to_string() } else { a.name.clone() };
+    doc.animations.iter().enumerate().map(name).collect()
+}
+
+/// The animation of a name, or all of them.
+fn chosen(doc: &Document, wanted: Option<&str>) -> Result<Vec<usize>, ReadError> {
+    let Some(wanted) = wanted else { return Ok((0..doc.animations.len()).collect()) };
+    let names = names(doc);
+    let found = names.iter().position(|n| n == wanted).map(|i| vec![i]);
+    found.ok_or_else(|| {
+        let what = format!("there is no animation \"{wanted}\"");
+        let there = if names.is_empty() { "none".into() } else { names.join(", ") };
+        ReadError::new("animations", what).hint(format!("There are: {there}."))
+    })
+}
+
+/// The animations at a time [s]: the one of a name, or all. One that moves what an earlier one moves is left out with a
+/// warning: players show such clips one at a time.
+pub(super) fn pose(
+    accessors: &Accessors,
+    wanted: Option<&str>,
+    time: f64,
+    said: &mut Counted,
+) -> Result<Pose, ReadError> {
     let mut pose = Pose::new();
-    for (i, animation) in accessors.doc.animations.iter().enumerate() {
+    for i in chosen(accessors.doc, wanted)? {
+        let animation = &accessors.doc.animations[i];
         let mut own = Pose::new();
         for (c, channel) in animation.channels.iter().enumerate() {
             let place = || format!("animation {}, channel {c}", named(i, &animation.name));
@@ -92,7 +116,7 @@ pub(super) fn pose(accessors: &Accessors, time: f64, said: &mut Counted) -> Resu
             own.entry((node, property)).or_insert(curve.at(time));
         }
         if own.keys().any(|k| pose.contains_key(k)) {
-            let text = "moves what an earlier animation moves: left out";
+            let text = "moves what an earlier animation moves: left out (--animation NAME shows it alone)";
             said.warn(format!("animation {}", named(i, &animation.name)), text);
         } else {
             pose.extend(own);

@@ -110,10 +110,10 @@ fn stand(
     said: &mut Counted,
 ) -> Result<(), ReadError> {
     let Some(time) = context.at_time else { return Ok(()) };
-    if doc.animations.is_empty() {
+    if doc.animations.is_empty() && context.animation.is_none() {
         said.note("animations", "there are none: every time shows the same");
     }
-    let pose = animation::pose(&Accessors { doc, buffers, context }, time, said)?;
+    let pose = animation::pose(&Accessors { doc, buffers, context }, context.animation, time, said)?;
     animation::apply(doc, &pose);
     Ok(())
 }
@@ -123,7 +123,10 @@ fn offers(doc: &Document, context: &Context) -> Option<String> {
     let still = context.at_time.is_none() && !doc.animations.is_empty();
     let still = still.then(|| {
         let end = antumbra_math::real::round(animation::end(doc) * 1000.0) / 1000.0;
-        format!("animations stand still (--at-time T, 0 to {end} s)")
+        let names = animation::names(doc);
+        let which =
+            if names.len() < 2 { String::new() } else { format!("; --animation {}", names.join(", ")) };
+        format!("animations stand still (--at-time T, 0 to {end} s{which})")
     });
     let names = if context.variant.is_none() { variant::names(doc) } else { Vec::new() };
     let looks =
