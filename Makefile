@@ -49,7 +49,8 @@ docs: $(VENV)/.ok ## write the reference pages that are made from the source
 	$(BIN)/python tools/reference.py
 	$(BIN)/python tools/equations.py
 
-gallery: $(VENV)/.ok ## render the glTF assets of the test data into docs/pictures/gallery.jpg
+gallery: $(VENV)/.ok ## render the pictures of docs/gallery.md: built-in scenes, and the glTF assets of the test data
+	$(BIN)/python tools/gallery.py --page
 	$(BIN)/python tools/gallery.py
 
 wheel: ## a wheel for other machines, in dist/ (WHEEL=quick: for this one, from what is built already)

@@ -8,17 +8,21 @@ from __future__ import annotations
 
 import argparse
 import os
+import re
+import shlex
 import sys
 import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import antumbra as am
+from antumbra.cli._run import run
 
 if TYPE_CHECKING:
     from PIL import Image
 
 ROOT = Path(__file__).resolve().parent.parent
+PAGE = ROOT / "docs/gallery.md"
 SHEET = ROOT / "docs/pictures/gallery.jpg"
 TILES = ROOT / "pictures/gallery"
 TILE = (256, 192)
@@ -113,12 +117,28 @@ def sheet(tiles: list[tuple[str, Path]], size: tuple[int, int]) -> Image.Image:
     return whole
 
 
+def commands() -> list[list[str]]:
+    """The words behind `antumbra` of each picture's command on the page."""
+    return [shlex.split(line) for line in re.findall(r"`antumbra (render [^`]+)`", PAGE.read_text("utf-8"))]
+
+
+def pictures() -> int:
+    """Runs them, in the root of the repository."""
+    os.chdir(ROOT)
+    return max(run(words) for words in commands())
+
+
 def main() -> int:
     """Renders every tile and joins them."""
     words = argparse.ArgumentParser(description=__doc__)
     words.add_argument("--size", default="{}x{}".format(*TILE), help="of a tile")
     words.add_argument("--only", help="tiles whose title has this; no sheet is written")
+    words.add_argument(
+        "--page", action="store_true", help="instead, the pictures of the page by their commands"
+    )
     given = words.parse_args()
+    if given.page:
+        return pictures()
     data = Path(os.environ.get("ANTUMBRA_DATA", ROOT.parent / "shared/data"))
     if not data.is_dir():
         print(f"error: there is no data folder at {data} (ANTUMBRA_DATA names it)", file=sys.stderr)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib.util
+import re
 import sys
 
 import numpy as np
@@ -54,6 +55,41 @@ def test_every_asset_is_in_the_gallery(data):
         if file.suffix in (".gltf", ".glb")
     }
     assert named == there
+
+
+SHOWN = {words[-1]: words for words in GALLERY.commands()}
+
+
+def test_every_built_in_scene_and_every_picture_is_on_the_page():
+    assert set(am.builtins()) <= {words[1] for words in GALLERY.commands()}
+    page = GALLERY.PAGE.read_text(encoding="utf-8")
+    named = {f"docs/pictures/{name}" for name in re.findall(r"\]\(pictures/([^)]+)\)", page)}
+    folder = ROOT / "docs" / "pictures"
+    assert named | {"docs/pictures/antumbra.png"} == {
+        f"docs/pictures/{file.name}" for file in folder.iterdir()
+    }
+    by_hand = {name for name in named if name not in SHOWN}
+    assert all(name.startswith("docs/pictures/lecture-") for name in by_hand - {"docs/pictures/gallery.jpg"})
+    assert sum(file.stat().st_size for file in folder.iterdir()) < 3_000_000
+
+
+# Those with the largest scenes are made often enough elsewhere.
+LIGHT = [name for name, words in SHOWN.items() if words[1] not in ("scan", "hall", "interior")]
+
+
+@pytest.mark.parametrize("name", LIGHT)
+def test_a_picture_of_the_page_is_what_its_command_makes(name, tmp_path):
+    from PIL import Image
+
+    shown, words = Image.open(ROOT / name).convert("RGB"), SHOWN[name]
+    rays = min(4, int(words[words.index("--viewing-rays") + 1]))
+    size = f"{shown.width // 4}x{shown.height // 4}"
+    made = str(tmp_path / "a.png")
+    assert GALLERY.run([*words[:-1], made, "--size", size, "--viewing-rays", str(rays)]) == 0
+    small = [p.resize((16, 12), Image.Resampling.BOX) for p in (shown, Image.open(made).convert("RGB"))]
+    look, made = (np.asarray(picture, float) for picture in small)
+    # Of 255. Blurred so much, the noise of 4 viewing rays is less than this; another view or light is not.
+    assert abs(made - look).mean() < 12
 
 
 def turned(uv, angle):

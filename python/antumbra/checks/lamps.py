@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cache
 from typing import NamedTuple
 
 import numpy as np
@@ -61,6 +62,7 @@ def _above(polygon: list[Points]) -> list[Points]:
     return kept
 
 
+@cache
 def falls_as(lamp: Lamp, cos: float, cos_light: float, distance: float) -> float:
     """∫ L_e cos^a θ cos^b θ′ / r^c dA over the lamp: its irradiance for a, b, c = 1, 1, 2, else that of a wrong law."""
     corner, u, v = lamp.corner_and_sides()
