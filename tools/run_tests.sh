@@ -5,7 +5,8 @@ cd "$(dirname "$0")/.."
 log=$(mktemp); trap 'rm -f "$log"' EXIT
 ok=0
 cargo test --locked --profile demo --quiet 2>&1 | tee -a "$log" || ok=1
-.venv/bin/python -m pytest 2>&1 | tee -a "$log" || ok=1
+# Two at a time: most of a test is Python and a browser, which know one core. A file stays together, so do its pictures.
+.venv/bin/python -m pytest -n 2 --dist loadfile 2>&1 | tee -a "$log" || ok=1
 awk -v ok=$ok '
   /^test result:/ { passed += $4; failed += $6; skipped += $8 }
   /^([0-9]+ [a-z]+, )*[0-9]+ [a-z]+ in [0-9.]+s/ {
