@@ -187,7 +187,7 @@ CHAPTERS = (
             "back from wall to wall. At each of them the direct light can be computed on purpose, or left to chance.",
         ),
         equation=Equation(
-            (BOUNCES,), "Marked: the direct light. The last term has L_o in it again: bounce after bounce."
+            (BOUNCES,), "Marked: the direct light. The last term has Lₒ in it again: bounce after bounce."
         ),
         pictures=(
             (

@@ -267,7 +267,7 @@ def _answer(figure: Figure, measured: Mapping[str, Quantity]) -> dict[str, str]:
     return {
         "value": f"{figure.answer.before}{value}",
         "error": error,
-        "unit": quantity.unit,
+        "unit": quantity.sign,
         "text": figure.answer.text.format(**measured),
     }
 

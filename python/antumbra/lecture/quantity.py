@@ -11,7 +11,7 @@ from antumbra._words import minus, written
 
 @dataclass(frozen=True)
 class Quantity:
-    """`value` ± `error` (95 %; 0: exact, infinite: not known); `unit` "%" writes per cent.
+    """`value` ± `error` (95 %; 0: exact, infinite: not known); `unit` "%" writes per cent, "thousand" so many times 1,000.
 
     `low` and `high`: the ends of its interval where they are not equally far; `error` is then the larger distance.
     In the sentences of a figure `{name}` writes the error with two digits, `{name:1}` with one, `{name:v}` without it,
@@ -36,32 +36,36 @@ class Quantity:
 
     @property
     def _scale(self) -> float:
-        return 100.0 if self.unit == "%" else 1.0
+        return {"%": 100.0, "thousand": 1000.0}.get(self.unit, 1.0)
+
+    @property
+    def sign(self) -> str:
+        """What stands behind the number."""
+        return "" if self.unit == "thousand" else self.unit
 
     def number(self, digits: int = 2) -> tuple[str, str]:
         """The value and its error as text, the error in so many digits; "" for no error."""
         value, error = self._scale * self.value, self._scale * self.error
         if not math.isfinite(error):
-            return written(value), "?"
+            return written(value) if math.isfinite(value) else "?", "?"
         if not error > 0:
             return written(value), ""
         # A value far below its own error needs no more digits than the error has.
-        places = max(0, digits - 1 - math.floor(math.log10(float(f"{error:.{digits - 1}e}"))))
-        return minus(f"{value:,.{places}f}"), f"{error:,.{places}f}"
+        places = digits - 1 - math.floor(math.log10(float(f"{error:.{digits - 1}e}")))
+        value, error = (f"{round(x, places):,.{max(places, 0)}f}" for x in (value, error))
+        return minus(value), error
 
     def __format__(self, spec: str) -> str:
         """`value ± error unit`; spec "1", "2": digits of the error, "v": the value alone, "r": with both ends."""
         if spec == "r":
             middle, low, high = (written(self._scale * x) for x in (self.value, *self.interval))
-            return f"{middle} ({low} … {high})" + (f" {self.unit}" if self.unit else "")
+            return f"{middle} ({low} … {high})" + (f" {self.sign}" if self.sign else "")
         digits = int(spec) if spec.isdigit() else 2
         value, error = self.number(digits)
         if spec == "v":
-            value, error = (
-                (value if error.strip("?") else written(self._scale * self.value)),
-                "",
-            )
-        tail = f" {self.unit}" if self.unit else ""
+            exact = not error.strip("?") and math.isfinite(self.value)
+            value, error = written(self._scale * self.value) if exact else value, ""
+        tail = f" {self.sign}" if self.sign else ""
         return f"{value} ± {error}{tail}" if error else f"{value}{tail}"
 
     def __str__(self) -> str:
@@ -71,5 +75,5 @@ class Quantity:
     def facts(self) -> dict[str, Any]:
         """For JSON: its fields and its text."""
         ends = zip(("error", "low", "high"), (self.error, *self.interval), strict=True)
-        known = {name: end if math.isfinite(end) else None for name, end in ends}
+        known = {name: end if math.isfinite(end) else None for name, end in (("value", self.value), *ends)}
         return {**asdict(self), **known, "text": str(self)}

@@ -38,7 +38,7 @@ def _stage(run: Run, measured: Mapping[str, Quantity]) -> list[Part]:
         panels.append(Panel(name, name, [maps_of_visits(run, run.scene(build), name, run.pick(SIZE), saved)]))
     times = (
         "Rates are left out: those of a coarse run's few rays are noise." if run.quick
-        else "Rates: of the renderer's own, all cores; medians of 21 calls of each kind in turn, of their ratio with its 95 %."
+        else "Rates: of the renderer's own, all cores; medians of 21 calls of each kind in turn, of their ratio with its 95 %. Any hit computes no place, so free rays may gain time."
     )  # fmt: skip
     note = f"Means over {run.pick(TIMES)} random points of a light. Visits: of a counting traversal. {times}"
     return [Tabs("scene", "Scene", panels), table_of_visits(measured, list(SCENES), note, not run.quick)]

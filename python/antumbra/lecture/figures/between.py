@@ -8,7 +8,12 @@ import numpy as np
 
 from antumbra.lecture.chapters import SEGMENT
 from antumbra.lecture.figure import Claim, Equation, Figure, Number, Pick, Question, Variant
-from antumbra.lecture.measures.false_shadow import half_width, width_of_false_shadow, wrong_pixels
+from antumbra.lecture.measures.false_shadow import (
+    half_width,
+    light_without_end,
+    width_of_false_shadow,
+    wrong_pixels,
+)
 from antumbra.lecture.measures.points import irradiance_at
 from antumbra.lecture.measures.ratio import excess, ratio
 from antumbra.lecture.quantity import Quantity
@@ -41,6 +46,7 @@ def _measure(run: Run) -> Mapping[str, Quantity]:
     return {
         "width": width_of_false_shadow(run, scene, HANGS, run.pick(Pick(512, 4096))),
         "under": excess(ratio(under, Quantity(UNDER))),
+        "dark": light_without_end(run, scene, (0.0, AXIS - RADIUS - 1e-3, 0.0), rays),
         "wrong": wrong_pixels(run, HANGS, HANGS),
         "hidden": wrong_pixels(run, HIDDEN, HANGS),
     }  # fmt: skip
@@ -55,7 +61,7 @@ FIGURE = Figure(
     question=Question(
         "A light hangs between a plane and a cylinder. A shadow ray that does not end at the light goes on until it meets something. "
         "What does the picture show?",
-        ("no difference", "a shadow on the plane, and a dark cylinder", "all is dark"), 1, ("width",),
+        ("no difference", "a shadow on the plane, and a dark cylinder", "all is dark"), 1, ("width", "dark"),
     ),
     variants=[
         Variant(f"{test}{y}", builtin("plane-and-cylinder", plane=y), LOOK | {"distance_test": test}, 4 if y in (HANGS, HIDDEN) else 1)
@@ -68,6 +74,7 @@ FIGURE = Figure(
     claims=[
         Claim("Tangents through all points of the light say how wide the false shadow is.", "width", near=WIDTH, within=0.002, main=True,
               measured="{width}; they say " + f"{WIDTH:.4f} m, for the light's centre alone {-HANGS * TANGENT:.3f} m: a light of some size makes it wider"),
+        Claim("Without it, the cylinder gets no light below.", "dark", near=0.0, within=0.001, measured="{dark} of its light, straight above the light"),
         Claim("With the test, the plane gets all light there is.", "under", near=0.0, within=0.01,
               measured="{under} off from π L (r/d)² under the light"),
         Claim("Once the plane lies between, both pictures agree.", "hidden", below=0.001, measured="{hidden} of the pixels differ at 0.15 m"),

@@ -59,12 +59,12 @@ FIGURE = Figure(
     equation=Equation(
         [(r"\text{Var} = \frac{1}{V} \left( \sigma_p^2 + \frac{\sigma_s^2}{\mark{N}} \right), \qquad \mark{N}^{*} = \sqrt{\frac{\sigma_s^2}{\sigma_p^2} \cdot \frac{c_v}{c_s}}",
           "Var = (σ_p² + σ_s²/N) / V, best at N* = √(σ_s²/σ_p² · c_v/c_s)")],
-        "Marked: shadow rays of each of V viewing rays. σ_p²: variance of the exact radiance over the pixel; σ_s²: of one shadow ray; c: what a ray costs. No N takes the bias of a centred ray away.",
+        "Marked: shadow rays of each of V viewing rays. σₚ²: variance of the exact radiance over the pixel; σₛ²: of one shadow ray; c: what a ray costs. No N takes the bias of a centred ray away.",
     ),
     claims=[
         Claim("At the edge 100 × 1 has less than a third of the error.", "edge", above=3.0, main=True, measured="÷ {edge}"),
         Claim("In the penumbra it has √2 times the error.", "penumbra", near=2**0.5, within=0.15, measured="× {penumbra}"),
         Claim("Twice the shadow rays leave the bias of the edge as it is.", "more", near=1.0, within=0.05, measured="{more} of that with 100"),
-        Claim("All splits have the variance (σ_p² + σ_s²/N) / V.", "law", near=1.0, within=0.2, measured="{law:r}, the farthest of 22"),
+        Claim("All splits have the variance (σₚ² + σₛ²/N) / V.", "law", near=1.0, within=0.2, measured="{law:r}, the farthest of 22"),
     ],
 )  # fmt: skip

@@ -62,7 +62,7 @@ FIGURE = Figure(
     measure=_measure, stage=_stage, exr=[f"depth-{LAST}"],
     answer=Number("share-1", "So much of the reflected light is direct. From the fourth on, each bounce brings {rate:1} of the one before; paths "
         "that end after 4 reflections lose {left-4:1} of it."),
-    equation=Equation([LATER_BOUNCES], "Marked: what a reflection does to light. L_o is the light of the lamps, plus once reflected, plus twice …"),
+    equation=Equation([LATER_BOUNCES], "Marked: what a reflection does to light. Lₒ is the light of the lamps, plus once reflected, plus twice …"),
     claims=[
         Claim("About half of the reflected light is direct.", "share-1", near=0.5, within=0.1, main=True, measured="{share-1}"),
         Claim("Roulette ends paths early and loses no light.", "kept", near=1.0, within=0.02, measured="ratio {kept} of the means"),

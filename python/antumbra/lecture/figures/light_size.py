@@ -65,11 +65,11 @@ def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
 FIGURE = Figure(
     number=15, chapter=4, title="How large a light", seconds=Pick(7, 85),
     question=Question("One shadow ray per pixel. The edge of the square light is doubled from 1 to 2 m, at the same power. What happens to the noise of a penumbra pixel?",
-                      ("it doubles", "it stays", "it halves"), 1, ("penumbra-doubled",)),
+                      ("it doubles", "it hardly changes", "it halves"), 1, ("penumbra-doubled",)),
     variants=[Variant(f"{kind}-{s}", builtin("pillars", light_size=s), options, count)
               for s in SIZES for kind, options, count in (("one", ONE, Pick(16, 48)), ("truth", TRUTH, 1))],
     measure=lambda run: noises(_squares(run), SIZES), stage=_stage, exr=["one-1.0"],
-    answer=Number("penumbra-doubled", "So many times as noisy is a penumbra pixel under an edge of 2 m as under one of 1 m, and {lit-doubled:1} times a fully lit one. The penumbra grows wider.", before="× "),
+    answer=Number("penumbra-doubled", "is the noise of a penumbra pixel, from an edge of 1 m to one of 2 m; that of a fully lit pixel is × {lit-doubled:1}. The penumbra grows wider.", before="× "),
     equation=Equation([SUM], "Marked: one shadow ray. In the penumbra V jumps between 0 and 1; in the light only the cosines and r "
         "vary, and the less the smaller the light. A fair coin for V gives 1/2; under an edge of 4 m cosines and r vary so much that the penumbra is noisier."),
     claims=[

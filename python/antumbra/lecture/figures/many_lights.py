@@ -28,7 +28,7 @@ def _variants() -> list[Variant]:
 
     seen = [of("seen-", k, way, 1, 1) for k in SHOWN for way in ("uniform", "contribution", "all")]
     timed = [
-        of("", k, way, 1 if way == "all" else RAYS, Pick((4 if way == "all" else 6) * (k in LAMPS.quick), 6))
+        of("", k, way, 1 if way == "all" else RAYS, Pick(6 * (k in LAMPS.quick), 6))
         for k in LAMPS.full for way in WAYS if k <= MOST or way in ANY_NUMBER
     ]  # fmt: skip
     return [*seen, *timed]

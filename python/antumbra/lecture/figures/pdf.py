@@ -42,7 +42,7 @@ def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
         "density": ("Density", densities),
     }, late=["mean"])  # fmt: skip
     rows = {f"{name}: {words}": (found[name], found[f"noise-{name}"]) for name, words in names}
-    note = f"{count} independent pictures of 4 rays a pixel each; maps of the mean in % of white, table in % of the light. The truth is made by random directions (hemisphere)."
+    note = f"{count} independent pictures of 4 rays a pixel each; maps of the mean against MIS, in % of white; table against random directions (hemisphere), in % of the light."
     head = ("density", "mean − truth", "variance, uniform = 1")
     return [tabs, table_of(head, rows, "Error of the mean, and variance, of four densities", note=note)]
 
@@ -50,7 +50,7 @@ def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
 FIGURE = Figure(
     number=12, chapter=4, title="Four ways to draw a point", seconds=Pick(5, 60),
     question=Question("One of four densities never draws a quarter of the light. What does its picture show?",
-                      ("more noise", "too little light, no more noise", "dark spots"), 1, ("gap", "noise-hole")),
+                      ("more noise", "too little light, no more noise", "dark spots"), 1, ("hole", "noise-hole")),
     variants=[
         Variant("truth", SCENE, CENTRED | {"estimator": "mis", "shadow_rays": Pick(64, 512), "sampler": "owen"}, truth=True),
         # The means are judged by directions, which know nothing of points on lights.
@@ -66,6 +66,7 @@ FIGURE = Figure(
     claims=[
         Claim("With a hole just the light of the hole is missing.", "gap", near=0.0, within=0.02, main=True,
               measured="{hole}; the left-out quarter alone gives {missing}, the two differ by {gap}"),
+        Claim("About a quarter of all light is missing.", "hole", near=-0.25, within=0.05, measured="{hole}"),
         Claim("Toward the nearest point the mean stays right.", "nearest", near=0.0, within=0.02, measured="{nearest}"),
         Claim("The noise of the hole does not warn.", "noise-hole", below=1.05, measured="variance {noise-hole} of the uniform one"),
     ],

@@ -57,7 +57,7 @@ def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
     }
     table = table_of(
         ("light", "2π · share of directions", "Σ cos θ′ dA / r²", "exact Ω"), rows, "Solid angle of six lights in two ways, and exactly.",
-        fine=(1,), note=f"{run.pick(COUNT):,} random directions, as many random points. Three of four points of the sphere turn their back and count 0.",
+        fine=(2,), note=f"{run.pick(COUNT):,} random directions, as many random points. Three of four points of the sphere turn their back and count 0.",
     )  # fmt: skip
     return [strip, table]
 

@@ -6,7 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from antumbra.lecture.measures.compare import share_changed
-from antumbra.lecture.measures.points import UP
+from antumbra.lecture.measures.points import UP, irradiance_at
+from antumbra.lecture.measures.ratio import scaled
 from antumbra.lecture.measures.replicates import mean_of
 from antumbra.lecture.quantity import Quantity
 from antumbra.lecture.run import Run
@@ -27,6 +28,17 @@ def width_of_false_shadow(run: Run, scene: Scene, height: float, count: int) -> 
 
     widths = [np.mean(1 - light("off", run.seeded(n)) / light("on", run.seeded(n))) for n in range(8)]
     return mean_of(widths, "m", f"8 replicates, {16 * count:,} shadow rays each")
+
+
+def light_without_end(run: Run, scene: Scene, under: tuple[float, float, float], rays: int) -> Quantity:
+    """Share of the light at a place that looks down which rays without end still find there."""
+    off, on = (
+        irradiance_at(
+            scene, under, rays, run.seeded(9 + n), (0.0, -1.0, 0.0), light="light", distance_test=test
+        )
+        for n, test in enumerate(("off", "on"))
+    )
+    return scaled(off, 1 / on.value, "%")
 
 
 def half_width(height: float, light: float, axis: float, radius: float) -> float:

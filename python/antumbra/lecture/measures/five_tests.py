@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from functools import partial
 
 from antumbra.lecture.measures.points import irradiance_at
-from antumbra.lecture.measures.ratio import excess, ratio
+from antumbra.lecture.measures.ratio import excess, farthest_from_one, ratio
 from antumbra.lecture.measures.seen import irradiance_seen
 from antumbra.lecture.quantity import Quantity
 from antumbra.lecture.run import Run
@@ -43,21 +43,20 @@ def passed(found: Quantity) -> str:
 def all_tests(run: Run, tested: Sequence[tuple[str, str, str]]) -> dict[str, Quantity]:
     """`name`-`test` for each name, estimator, mistake; the first two are right, the others wrong.
 
-    found: how many of the wrong ones some test finds; below: how many of them pass straight below; worst: how far the
-    right ones are off at most; more: what the first wrong one gives too much at the side.
+    found: how many of the wrong ones some test finds; below: how many of them pass straight below; worst: that of the
+    right ones which may be farthest from 1; more: what the first wrong one gives too much at the side.
     """
     other = irradiance_at(run.scene(_SIDE), _AT, 2**18, run.seeded(1), estimator="hemisphere")
     each = {name: _five(run, row, e, m, other) for row, (name, e, m) in enumerate(tested)}
     names = list(each)
     right = [quantity for name in names[:2] for quantity in each[name].values()]
-    worst = max(right, key=lambda q: abs(q.value - 1))
     words = [[passed(quantity) for quantity in each[name].values()] for name in names[2:]]
     return {
         **{f"{name}-{test}": quantity for name, all_of in each.items() for test, quantity in all_of.items()},
         "more": excess(each[names[2]]["side"]),
         "found": Quantity(sum("not supported" in row for row in words)),
         "below": Quantity(sum(row[0] == "supported" for row in words)),
-        "worst": Quantity(abs(worst.value - 1), worst.error, "%"),
+        "worst": farthest_from_one(right),
     }
 
 

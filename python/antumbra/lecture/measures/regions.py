@@ -48,16 +48,14 @@ def ends_on_axis(scene: Scene, height: float, length: float, reach: float) -> Qu
     `length`: the middle between the last point of the umbra and the first one of the antumbra, ± half of what lies
     between.
 
-    Raises ValueError if the regions are not those two, in this order.
+    Not a number, and sure of nothing, if the regions are not those two, in this order.
     """
     behind = length + reach * np.linspace(-1, 1, 2001)
     points = np.stack([0 * behind, height - behind, 0 * behind], 1)
     found = scene.regions(points, (0.0, 1.0, 0.0))
     first = int(np.argmax(found != UMBRA))
     if first == 0 or (found[first:] != ANTUMBRA).any():
-        raise ValueError(
-            f"umbra and then antumbra are not what lies on the axis from {behind[0]:g} to {behind[-1]:g}"
-        )
+        return Quantity(math.nan, math.inf, note=f"not from {behind[0]:g} to {behind[-1]:g} on the axis")
     last, next_one = float(behind[first - 1]), float(behind[first])
     return Quantity((last + next_one) / 2, (next_one - last) / 2, note="between two points on the axis")
 

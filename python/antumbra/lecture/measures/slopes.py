@@ -79,13 +79,15 @@ class Errors:
     def _slope(self, sampler: str, every: Sequence[int]) -> Quantity:
         """With the noise of the truth in the worst case: it moves all points of the line at once.
 
-        Raises ValueError where a mean is not above 0: the truth is too noisy to be compared with.
+        Not a number where a mean is not above 0: the truth is too noisy to be compared with.
         """
         squares = np.stack([self.at(sampler, n) for n in every], axis=1)
         means = squares.mean(0)
         if not (means > 0).all():
             n = every[int(np.argmin(means))]
-            raise ValueError(f"{sampler} with {n} rays is as good as the truth: the truth needs more rays")
+            return Quantity(
+                math.nan, math.inf, note=f"with {n} rays it is as good as the truth, which needs more"
+            )
         if len(squares) > 1 and not (squares > 0).all():
             found = slope_of_root(every, squares)
         else:

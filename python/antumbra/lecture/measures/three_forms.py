@@ -12,7 +12,7 @@ import antumbra as am
 from antumbra.lecture.measures.maps import box_mean
 from antumbra.lecture.measures.one_sample import Samples, moments_of_light_points, one_sample
 from antumbra.lecture.measures.ratio import ratio
-from antumbra.lecture.measures.replicates import mean_of
+from antumbra.lecture.measures.replicates import mean_of, median_of
 from antumbra.lecture.quantity import Quantity
 from antumbra.lecture.run import Run
 from antumbra.lecture.scenes import low_room
@@ -54,8 +54,9 @@ def at_the_middle(run: Run, ratios: Sequence[float]) -> dict[str, Quantity]:
         found[f"{form}-{at}"] = mean_of(scale * each.variances)
         found[f"share-{form}-{at}"] = each.share
     for form in FORMS:
+        # Of each size of the light once: what the machine does besides meets all forms alike.
         cost = [samples[form, at].seconds / samples["area", at].seconds for at in ratios]
-        found[f"time-{form}"] = _median(cost, "of the time of a point of the light")
+        found[f"time-{form}"] = median_of(cost, "", "of the time of a point of the light")
     return found | near_a_corner(run)
 
 
@@ -124,15 +125,3 @@ def _even(samples: Mapping[tuple[str, float], Samples]) -> Quantity:
     slope, height = np.polyfit(np.log(CROSSING), over, 1)
     note = "R² / (R² + h²) where both variances are the same"
     return mean_of(1 / (1 + np.exp(2 * height / slope)), "%", note)
-
-
-def _median(values: Sequence[float], note: str) -> Quantity:
-    """The median, and the 95 % interval of its order statistics."""
-    ordered = np.sort(values)
-    # Of n values, those with these numbers hold the median in at least 95 % of cases: n/2 ± 0.98 √n.
-    reach = int(np.ceil(0.98 * np.sqrt(len(ordered))))
-    low, high = (
-        ordered[max(0, len(ordered) // 2 - reach)],
-        ordered[min(len(ordered) - 1, len(ordered) // 2 + reach)],
-    )
-    return Quantity(float(np.median(ordered)), float(high - low) / 2, "", note)

@@ -70,11 +70,11 @@ def shadow_rays(scene: Scene, size: tuple[int, int], random: np.random.Generator
 
 
 def disagree(scene: Scene, asked: Asked) -> float:
-    """The share of rays whose answer differs from what their closest hit says: another object before the light."""
-    met = scene.closest_hit(asked.receivers, asked.targets - asked.receivers.positions, 1.001)
-    light = np.bincount(met.mesh[abs(met.t - 1.0) < 1e-3]).argmax()
-    blocked = (met.t < _SHORT) & (met.mesh != light)
-    return float(np.mean(blocked != asked.visits.blocked))
+    """The share of rays with another answer from any hit than from closest hit, both along the same numbers."""
+    along = asked.targets - asked.receivers.positions
+    any_hit = scene.occluded(asked.receivers, directions=along, max_distance=_SHORT)
+    closest = scene.closest_hit(asked.receivers, along, _SHORT)
+    return float(np.mean(any_hit != np.isfinite(closest.t)))
 
 
 def visits_measured(
@@ -93,7 +93,7 @@ def visits_measured(
         saved = [each.saved(some) for each, some in zip(asked, chosen, strict=True)]
         found[f"saved_{word}"] = mean_of(saved, unit="%")
         found |= {f"{what}_{word}": rate for what, rate in _rates(scene, asked[0], blocked).items()}
-    return found, disagree(scene, asked[0])
+    return found, float(np.mean([disagree(scene, each) for each in asked]))
 
 
 def _rates(scene: Scene, asked: Asked, blocked: bool) -> dict[str, Quantity]:

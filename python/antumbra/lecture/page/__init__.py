@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 import json
+import re
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -57,6 +58,11 @@ def single(
         factor *= 0.8
 
 
+def together(text: str) -> str:
+    """No line ends between a number, its error and its unit, nor at a sign before a number."""
+    return re.sub(r" (?=[±%=])|(?<=[±=×÷]) (?=[\d−])", "\N{NO-BREAK SPACE}", text)
+
+
 def _render(
     chapters: Sequence[Mapping[str, Any]],
     contents: Sequence[Mapping[str, Any]],
@@ -74,6 +80,7 @@ def _render(
     templates = jinja2.Environment(
         loader=jinja2.FileSystemLoader(_HERE), autoescape=True, undefined=jinja2.StrictUndefined
     )
+    templates.filters["together"] = together
     templates.globals |= {
         "part": lambda p, figure="": Markup(
             templates.get_template(f"stages/{p['kind']}.html").render(p=p, figure=figure)

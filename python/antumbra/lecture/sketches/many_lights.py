@@ -23,11 +23,15 @@ def lamps(run: Run, counts: Sequence[int]) -> Strip:
     for k in counts:
         white = float(np.percentile(lit(run, f"seen-all-{k}"), 97))
         pictures, rays = [], run.image(f"seen-all-{k}")
-        for way, words in (("uniform", "noise"), ("contribution", "hardly noise"), ("all", "no noise")):
-            alt = f"{k} lamps, {_NAMES[way]}: {words if k > 1 else 'the same picture'}."
+        each = run.light(f"seen-all-{k}")
+        for way in ("uniform", "contribution", "all"):
+            off = float(np.sqrt(((run.light(f"seen-{way}-{k}") - each) ** 2).mean()) / each.mean())
+            alt = f"{k} lamps, {_NAMES[way]}: " + (
+                f"off by {off:.0%} of the mean." if way != "all" else "a ray to each."
+            )
             pictures.append(run.picture(f"seen-{way}-{k}", alt, white=white, colour=True, noise=True))
-        each = rays.shadow_rays / (rays.width * rays.height)
-        says = f"{k:,} lamp{'s' * (k > 1)}: 1 ray, 1 ray, {each:.0f} rays a pixel"
+        to_each = rays.shadow_rays / (rays.width * rays.height)
+        says = f"{k:,} lamp{'s' * (k > 1)}: 1 ray, 1 ray, {to_each:.0f} rays a pixel"
         frames.append(Frame(str(k), says, pictures, short=f"{k:,}"))
     labels = ("one ray, alike", "by contribution", "a ray to each")
     note = (

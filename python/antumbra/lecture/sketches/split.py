@@ -69,7 +69,7 @@ def advice(run: Run, found: Mapping[str, Quantity], white: float) -> Panel:
         ),
     ]  # fmt: skip
     note = (
-        f"N* = σ_s/σ_p · √(c_v/c_s), {_costs(found)}; below 1 it means 1. Variances are means over 3 × 3 of "
+        f"N* = σₛ/σₚ · √(cᵥ/cₛ), {_costs(found)}; below 1 it means 1. Variances are means over 3 × 3 of "
         f"this picture's {shown.shape[1]} pixels a row: in larger ones more varies, and N* is less. "
         "Black: edges, and no light."
     )
@@ -83,7 +83,7 @@ def cost_of(found: Mapping[str, Quantity]) -> float:
 
 def _costs(found: Mapping[str, Quantity]) -> str:
     took = found.get("took")
-    return f"c_v/c_s = {took:r} by the clock" if took else "rays counted, c_v = c_s"
+    return f"cᵥ/cₛ = {took:r} by the clock" if took else "rays counted, cᵥ = cₛ"
 
 
 def _split(advised: float) -> str:
@@ -91,7 +91,7 @@ def _split(advised: float) -> str:
 
 
 def noise_plot(run: Run, found: Mapping[str, Quantity], white: float) -> str:
-    """Error of each split at `RAYS` rays, the lines of theory, and the error through the centre of an edge."""
+    """Error of each split at `RAYS` rays, the lines of theory, and the errors of rays through the centre."""
     shadow = [RAYS / v - 1 for v in VIEWING]
     curves = []
     for where in reversed(CROPS):
@@ -99,9 +99,10 @@ def noise_plot(run: Run, found: Mapping[str, Quantity], white: float) -> str:
         exact = np.vectorize(lambda n, of=of: np.sqrt(of.variance(RAYS / (1 + n), n).value) / white)
         marks = [found[f"noise-{key_of(v)}-{where}"] for v in VIEWING]
         curves.append(curve_of(where, shadow, marks, exact, f"N* = {_split(of.advised(cost_of(found)))}"))
-    centred = found[f"error-centre{RAYS - 1}-edge"]
-    low, high = centred.interval
-    curves.append(Curve("edge, centred", [RAYS - 1], [centred.value], [low], [high], hollow=[True]))
+    for where in CROPS:
+        centred = found[f"error-centre{RAYS - 1}-{where}"]
+        low, high = centred.interval
+        curves.append(Curve(f"{where}, centred", [RAYS - 1], [centred.value], [low], [high], hollow=[True]))
     return error_curves(
         curves, x_title="shadow rays of each viewing ray, N", y_title=f"error over white, {RAYS} rays",
         chosen="penumbra", x_ticks=[1, 4, 19, 49, 199], y_ticks=[0.2, 0.1, 0.05, 0.02, 0.01],
@@ -115,7 +116,7 @@ def plot_note(run: Run, found: Mapping[str, Quantity]) -> str:
     count, least = len(run.images(f"{key_of(VIEWING[0])}-edge")), _split(scatter(run, "penumbra").advised())
     costs = f"{_costs(found)}; by rays counted, as drawn, {least}" if "took" in found else _costs(found)
     return (
-        f"Marks: measured, 95 % of {count} replicates. Lines: √((σ_p² + σ_s²/N) / V), both variances measured apart. "
+        f"Marks: measured, 95 % of {count} replicates. Lines: √((σₚ² + σₛ²/N) / V), both variances measured apart. "
         f"Hollow: with its bias. N*: {costs}."
     )
 

@@ -63,7 +63,7 @@ def table_of_visits(
             timed = [written(rate.value, 2), f"{faster:r}"] if clock else []
             rows.append([f"{name}, {word}", share, *counts, saved, *timed])
     head = (
-        "rays", "share", "boxes, any hit", "closest hit", "triangles, any hit", "closest hit", "saved",
+        "rays", "share", "any hit: boxes", "closest: boxes", "any hit: triangles", "closest: triangles", "saved",
         *(("M rays/s, any hit", "rays/s over closest hit") if clock else ()),
     )  # fmt: skip
     return Table(
