@@ -11,7 +11,9 @@ from antumbra._words import minus, written
 
 @dataclass(frozen=True)
 class Quantity:
-    """`value` ± `error` (95 %; 0: exact, infinite: not known); `unit` "%" writes per cent, "thousand" so many times 1,000.
+    """`value` ± `error` (95 %; 0: exact, infinite: not known).
+
+    `unit` "%" writes per cent, "thousand" a thousand times the number.
 
     `low` and `high`: the ends of its interval where they are not equally far; `error` is then the larger distance.
     In the sentences of a figure `{name}` writes the error with two digits, `{name:1}` with one, `{name:v}` without it,

@@ -27,7 +27,7 @@ from antumbra.study.statistics import Interval
         (Quantity(0.0353, 0.00013, "%"), "", "3.530 ± 0.013 %"),
         (Quantity(0.0353, 0.00013, "%"), "v", "3.530 %"),
         (Quantity(0.0, 0.0, "%"), "", "0 %"),
-        (Quantity(1234.4, 99.6), "1", "1,234 ± 100"),
+        (Quantity(1234.4, 99.6), "1", "1,200 ± 100"),
         (Quantity(-0.0001, 0.01), "1", "0.00 ± 0.01"),
         (Quantity(4.0), "", "4"),
         (Quantity(0.5, unit="%", low=0.41, high=0.7), "r", "50 (41 … 70) %"),
