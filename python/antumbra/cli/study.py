@@ -147,8 +147,12 @@ def _told(found: Study, folder: Path) -> str:
 
     flagged = found.flagged()
     said = f"{_say.some(len(flagged), 'row')} of {len(found.rows)} biased" if flagged else "no bias found"
+    black = found.black()
     if not found.tested():
         said = "bias was not tested"
+    elif black:
+        untested = f"{len(black)} of {len(found.rows)} rows not tested: black, or the reference is"
+        said = f"{said}, {untested}" if flagged else untested
     elif not flagged and (hidden := found.untestable()):
         size = f"below {100 * hidden:.0f} % of the mean" if hidden < 1 else "even as large as the mean"
         said = f"a bias {size} was not testable"

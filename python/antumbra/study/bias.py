@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from antumbra.study import statistics
-from antumbra.study._quantiles import t_inside, t_quantile
+from antumbra.study.quantiles import t_inside, t_quantile
 
 # x, y, width, height in pixels.
 Box = tuple[int, int, int, int]
@@ -21,6 +21,9 @@ TILES = 4
 # Means that vary more than this between replicates, as a part of themselves, come from few samples that found light:
 # then their spread is no measure of their noise (none of 100 rays hit a small light: no spread, and no certainty).
 MOST_SPREAD = 0.3
+# What is black may have had bad luck: of so many samples, one at least is taken to find the light. Directions find the
+# sun that often: half a degree wide, it has one part in 93,500 of the half-space.
+RARE = 1e5
 
 
 class Bias(NamedTuple):
@@ -47,6 +50,7 @@ def bias(
     reference: ArrayLike,
     reference_error: ArrayLike | None = None,
     *,
+    samples: float = 1.0,
     alpha: float = ALPHA,
     tiles: int = TILES,
 ) -> Bias:
@@ -58,7 +62,9 @@ def bias(
     its standard error √(s²/K + s_r²/R), is compared with Student's t of min(K, R) − 1 degrees of freedom (fewer than
     Welch's 1947, so careful). The least p of all of them, times their number (Bonferroni), must fall below `alpha`.
     Nothing is tested where the means of single replicates spread by more than 30 %, and in a tile (or a picture) that
-    is black in one of the two: too few samples found light for their spread to measure their noise.
+    is black in one of the two: too few samples found light for their spread to measure their noise. But replicates that
+    are black where the reference has light lack it, if they had samples enough, `samples` in each pixel of each: were
+    one in `RARE` to find it, none of n in such pixels would with probability exp(−n / RARE), and p is at least that.
     """
     x, r = np.asarray(replicates, np.float64), np.asarray(reference, np.float64)
     r = r[None] if r.ndim == x.ndim - 1 else r
@@ -73,21 +79,22 @@ def bias(
     )
     boxes = _boxes(x.shape[1], x.shape[2], tiles)
     places: list[Box | None] = [None, *(boxes if len(boxes) > 1 else [])]
-    gaps = [_gap(_cells(x, place), _cells(r, place), _cells(own, place)) for place in places]
+    per_cell = samples * x.shape[1] * x.shape[2] / x[0].size
+    gaps = [_gap(_cells(x, place), _cells(r, place), _cells(own, place), per_cell) for place in places]
     lit = sum(gap.mean > 0 for gap in gaps)
-    tests = {i: gap.p() for i, gap in enumerate(gaps) if gap.testable}
+    tests = {i: gap.p() for i, gap in enumerate(gaps) if gap.testable(alpha / len(gaps))}
     if not tests:
         return Bias(False, math.nan, gaps[0].interval(), None, 0.0, math.inf)
     best = min(tests, key=tests.__getitem__)
     p = min(1.0, tests[best] * len(gaps))
-    hidden = gaps[0].least(alpha / len(gaps)) if gaps[0].testable else math.inf
+    hidden = gaps[0].least(alpha / len(gaps)) if 0 in tests else math.inf
     return Bias(p < alpha, p, gaps[0].interval(), places[best], len(tests) / lit, hidden)
 
 
 class _Gap(NamedTuple):
     """A difference of two means, its standard error and degrees of freedom, the larger mean, the worst spread.
 
-    `black`: one of the two has no light, or both.
+    `dark`: one of the two has no light, or both; `luck`: the probability of that, if it is the replicates, else 1.
     """
 
     value: float
@@ -95,18 +102,21 @@ class _Gap(NamedTuple):
     dof: int
     mean: float
     spread: float
-    black: bool
+    dark: bool
+    luck: float
 
-    @property
-    def testable(self) -> bool:
-        """Whether enough samples found light in both."""
-        return self.spread <= MOST_SPREAD and not self.black
+    def testable(self, alpha: float) -> bool:
+        """Whether enough samples found light in both, or so many found none that it is no bad luck."""
+        return self.spread <= MOST_SPREAD and (not self.dark or self.luck < alpha)
 
     def p(self) -> float:
         """Two-sided p. Where neither has noise, only the rounding of single precision is forgiven."""
         if self.error == 0:
-            return 0.0 if abs(self.value) > 1e-6 * abs(self.mean) else 1.0
-        return max(0.0, 1.0 - t_inside(abs(self.value) / self.error, self.dof))
+            return self._least_p() if abs(self.value) > 1e-6 * abs(self.mean) else 1.0
+        return max(self._least_p(), 1.0 - t_inside(abs(self.value) / self.error, self.dof))
+
+    def _least_p(self) -> float:
+        return self.luck if self.dark else 0.0
 
     def least(self, alpha: float) -> float:
         """The difference whose two-sided p is alpha."""
@@ -118,8 +128,8 @@ class _Gap(NamedTuple):
         return statistics.Interval(self.value, self.value - half, self.value + half)
 
 
-def _gap(x: NDArray[np.float64], r: NDArray[np.float64], own: NDArray[np.float64]) -> _Gap:
-    """Of cells (K, n) from those of the reference (R, n) with their own standard errors (R, n)."""
+def _gap(x: NDArray[np.float64], r: NDArray[np.float64], own: NDArray[np.float64], samples: float) -> _Gap:
+    """Of cells (K, n) of so many `samples` each from the reference's (R, n) with their own standard errors (R, n)."""
     a, b = x.mean(axis=1), r.mean(axis=1)
     square = float(a.var(ddof=1)) / len(a) + float((own**2).sum()) / own.size**2
     dof = len(a) - 1
@@ -134,6 +144,7 @@ def _gap(x: NDArray[np.float64], r: NDArray[np.float64], own: NDArray[np.float64
         mean,
         max(_spread(a), _spread(b)),
         not (a.any() and b.any()),
+        math.exp(-samples * len(x) * np.count_nonzero(r.any(axis=0)) / RARE) if not a.any() else 1.0,
     )
 
 

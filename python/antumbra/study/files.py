@@ -18,6 +18,7 @@ from antumbra._files import write_whole
 from antumbra.study.rows import Row
 
 if TYPE_CHECKING:
+    from antumbra.study.plan import Variant
     from antumbra.study.result import Study
 
 _EARLIER = "earlier-"
@@ -78,9 +79,9 @@ def _is_part(file: Path, study: Study, keys: Container[str]) -> bool:
         return False
 
 
-def key_of(row: Row) -> str:
-    """Which variant a row is of."""
-    return json.dumps([row.values, row.budget], sort_keys=True)
+def key_of(of: Row | Variant) -> str:
+    """Which variant a row is of, or the variant itself."""
+    return json.dumps([of.values, of.budget], sort_keys=True)
 
 
 def finished_rows(folder: Path, fingerprint: str) -> list[Row]:

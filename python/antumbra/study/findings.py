@@ -61,6 +61,10 @@ class Findings:
         """Rows whose mean differs from the reference by more than noise explains."""
         return [r for r in self.rows if r.bias is not None and r.bias.flagged]
 
+    def black(self) -> list[Row]:
+        """Rows that found no light where too few samples tell why, and those whose reference found none."""
+        return [r for r in self.rows if r.black]
+
     def tested(self) -> bool:
         """Whether bias was tested anywhere: there is a reference, and enough samples found light."""
         return any(r.tested for r in self.rows)

@@ -177,26 +177,26 @@ class Job:
         there = {key_of(row): row for row in reversed(rows)}
         found = {}
         for variant in self.plan.variants:
-            row = there.get(key := self._key(variant))
+            row = there.get(key := key_of(variant))
             if row is not None:
                 n = self._n(variant, row.rays, row.seconds.value)
                 found[key] = replace(row, truth=self.truths.index(variant.truth()), n=n)
         return found
 
     def _set_aside(self, folder: Path) -> None:
-        keys = {self._key(v) for v in self.plan.variants}
+        keys = {key_of(v) for v in self.plan.variants}
         if (aside := set_aside(folder, self._study({}, False), keys)) is not None:
             self.warnings.append(("note", "", f"{folder} held another study: it lies in {aside} now"))
 
     def _rows(self, finished: set[str]) -> Iterator[Row]:
         words = renders.reference_words(self.plan, self.by, self.rays) if self.by else None
-        ahead = [v for v in self.plan.variants if self._key(v) not in finished]
+        ahead = [v for v in self.plan.variants if key_of(v) not in finished]
         self.work.plan(renders.cost(ahead, self.plan.seeds, words))
         for number, truth in enumerate(self.truths):
             reference = self.given
             for variant in (v for v in ahead if v.truth() == truth):
                 if words is not None and reference is None:
-                    reference = renders.reference_by(variant, words, self.work)
+                    reference = renders.reference_by(self.plan, variant, words, self.work)
                 yield self._row(variant, reference, number)
 
     def _row(self, variant: Variant, reference: Reference | None, truth: int) -> Row:
@@ -204,7 +204,7 @@ class Job:
         pictures, seconds, rays = [], [], 0.0
         for k in range(self.plan.seeds):
             what = f"{said}, seed {k + 1} of {self.plan.seeds}"
-            image = self.work.render(variant.parameters, variant.words, self.plan.first_seed + k, what)
+            image = self.work.render(variant.parameters, variant.words, self.plan.seed(k), what)
             pictures.append(image.pixels)
             seconds.append(image.seconds)
             rays += renders.rays_per_pixel(image) / self.plan.seeds
@@ -221,9 +221,6 @@ class Job:
         if self.plan.axis == "budget":
             return rays if self.plan.budget == "rays" else seconds
         return float(variant.values[self.plan.axis]) if self.plan.axis else None
-
-    def _key(self, variant: Variant) -> str:
-        return json.dumps([variant.values, variant.budget], sort_keys=True)
 
     def fingerprint(self) -> str:
         """Equal for two studies whose rows may be mixed: the same scene, settings, seeds and reference."""
@@ -257,7 +254,7 @@ class Job:
 
     def _study(self, done: Mapping[str, Row], complete: bool) -> Study:
         plan = self.plan
-        rows = [done[key] for key in map(self._key, plan.variants) if key in done]
+        rows = [done[key] for key in map(key_of, plan.variants) if key in done]
         name = renders.reference_name(self.by, self._reference_rays()) if self.by else ""
         return Study(
             scene=self.source.name,
@@ -300,12 +297,16 @@ def _about_reference(rows: list[Row]) -> list[tuple[str, str, str]]:
         what = "the reference found no light: bias was not tested (--reference names another estimator or picture)"
         return [("warning", "", what)]
     found: list[tuple[str, str, str]] = []
+    for row in (r for r in tested if r.black and r.true_mean):
+        name = " ".join(row.values.values())
+        what = f"{name} found no light, its reference did: more rays or seeds tell whether that is bad luck"
+        found.append(("warning", "", what))
     least = min((r.variance.value for r in rows if r.noisy), default=0.0)
     own = max((r.reference_variance for r in rows), default=0.0)
     if least and own > _LARGE**2 * least:
         part = f"{100 * math.sqrt(own / least):.0f} % of the least noise"
         what = f"the reference's own error is {part}: more rays (--reference-rays) or another reference help"
-        found = [("note", "", what)]
+        found.append(("note", "", what))
     if (share := 100 * untested(rows)) >= 0.5:
         what = f"bias was not tested in {share:.0f} % of the tiles: too few samples found light there"
         found += [("note" if all(r.tested for r in tested) else "warning", "", what)]

@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from antumbra.study import renders
-from antumbra.study._quantiles import t_quantile
-from antumbra.study.plan import ALL_LIGHT, Plan, Variant
+from antumbra.study.plan import ALL_LIGHT, KIND_PILOT, Plan, Variant
+from antumbra.study.quantiles import t_quantile
 from antumbra.study.renders import REFERENCE_SEEDS, Work
 
 # What finds the light of each: an error in a part is an error of all that are made of it.
@@ -29,7 +29,6 @@ _NOISY, _NOISY_SHARED = 0.01, 0.05
 _TRUSTED = {"direct": "mis", "all": "path"}
 # A pilot's seeds, and the part of the reference's rays that it has.
 _SEEDS, _PART = 4, 16
-_PILOT_SEED = 1 << 28
 
 
 class Choice(NamedTuple):
@@ -112,6 +111,8 @@ def _pilot(
     words = renders.words_of(variant, renders.reference_words(plan, kind, rays))
     whole = int(words["viewing_rays"])
     words["viewing_rays"] = str(max(1, whole // _PART))
-    pictures = (work.render(variant.parameters, words, _PILOT_SEED + k, "a pilot") for k in range(_SEEDS))
+    pictures = (
+        work.render(variant.parameters, words, plan.seed(KIND_PILOT + k), "a pilot") for k in range(_SEEDS)
+    )
     means = [float(np.asarray(p.pixels, np.float64).mean()) for p in pictures]
     return np.array(means), int(words["viewing_rays"]) / whole

@@ -13,6 +13,10 @@ from antumbra.errors import OptionError
 
 RAYS = ("shadow_rays", "viewing_rays")
 LEAST_SEEDS = 3
+# Seeds are whole numbers below this, and those of a study count round. The places where pilots and the reference begin,
+# counted from its first seed, lie so far apart that none meets another.
+_ALL_SEEDS, _MOST_SEEDS = 1 << 32, 1 << 20
+RAYS_PILOT, KIND_PILOT, COST_PILOT, REFERENCE = 1 << 27, 1 << 28, 1 << 29, 1 << 30
 # Settings that change how a picture is found; all others change what it shows: each value has a truth of its own.
 METHOD = {
     *RAYS, "estimator", "lights", "light_points", "directions", "roulette", "sampler", "rotate", "pairing",
@@ -68,6 +72,10 @@ class Plan:
     chosen: str = ""
     messages: list[str] = field(default_factory=list)
 
+    def seed(self, place: int) -> int:
+        """The seed at a place counted from its first: replicate k at k, others from where they begin."""
+        return (self.first_seed + place) % _ALL_SEEDS
+
     def suggested(self, asked: Mapping[str, str]) -> Plan:
         """The plan of a scene whose file asks for these settings: they hold where nothing else is said."""
         out = {*self.varied, *self.fixed, *_REFUSED, self.chosen}
@@ -108,6 +116,8 @@ def plan(
         raise OptionError(
             f"{seeds} seeds: at least {LEAST_SEEDS} are needed to know a variance and its error"
         )
+    if seeds > _MOST_SEEDS:
+        raise OptionError(f"{seeds} seeds: at most {_MOST_SEEDS:,} have seeds of their own")
     counted, amounts = _budget(budget)
     chosen = _chosen(varied, words) if counted else ""
     variants = [

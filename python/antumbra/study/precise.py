@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from antumbra.study import renders, statistics
-from antumbra.study.plan import LEAST_SEEDS, Plan, Variant
+from antumbra.study.plan import LEAST_SEEDS, RAYS_PILOT, Plan, Variant
 from antumbra.study.renders import REFERENCE_SEEDS, Work
 
 # The reference's own error over the least noise of a variant, at most: a sixteenth of its square. For that a
 # reference may take so many times a fair number of rays, in steps of 4.
 _SMALL, _MOST = 0.25, 64
-# A pilot's seeds lie apart from all others; it has a part of the rays of a fair reference.
-_PILOT_SEED, _SEEDS, _PART = 1 << 27, 4, 16
+# A pilot's seeds, and the part of the rays of a fair reference that it has.
+_SEEDS, _PART = 4, 16
 
 
 def rays_needed(plan: Plan, work: Work, by: str) -> int:
@@ -34,7 +34,8 @@ def _needed(plan: Plan, work: Work, by: str, fair: int, variants: list[Variant])
     words = renders.words_of(variants[0], renders.reference_words(plan, by, 0))
     words["viewing_rays"] = str(max(1, fair // _PART))
     pictures = [
-        work.render(variants[0].parameters, words, _PILOT_SEED + k, "a pilot").pixels for k in range(_SEEDS)
+        work.render(variants[0].parameters, words, plan.seed(RAYS_PILOT + k), "a pilot").pixels
+        for k in range(_SEEDS)
     ]
     one = statistics.variance(renders.stacked(pictures)).value * int(words["viewing_rays"])
     return one / (REFERENCE_SEEDS * _SMALL**2 * least) if least else 0.0
@@ -48,6 +49,6 @@ def _finest(variants: list[Variant]) -> list[Variant]:
 
 def _variance(plan: Plan, work: Work, variant: Variant) -> float:
     """Of the first pictures of its row, which are kept for it."""
-    seeds = range(plan.first_seed, plan.first_seed + LEAST_SEEDS)
+    seeds = map(plan.seed, range(LEAST_SEEDS))
     pictures = [work.ahead(variant.parameters, variant.words, seed) for seed in seeds]
     return statistics.variance(renders.stacked([picture.pixels for picture in pictures])).value

@@ -12,15 +12,22 @@ import numpy as np
 
 from antumbra import settings
 from antumbra.errors import OptionError
-from antumbra.study.plan import ALL_LIGHT, DIRECT, METHOD, Plan, Variant, shows
+from antumbra.study.plan import (
+    ALL_LIGHT,
+    COST_PILOT,
+    DIRECT,
+    METHOD,
+    REFERENCE,
+    Plan,
+    Variant,
+    shows,
+)
 from antumbra.study.rows import Pictures, Reference
 
 if TYPE_CHECKING:
     from antumbra.image import Image
     from antumbra.scene import Scene
 
-# Seeds of the reference and of the pilots lie far from those of the variants.
-_REFERENCE_SEED, _PILOT_SEED = 1 << 30, 1 << 29
 REFERENCE_SEEDS = 8
 # The least viewing rays of one seed of a reference.
 _LEAST = 16
@@ -161,7 +168,7 @@ def _pilot(plan: Plan, variant: Variant, work: Work) -> tuple[float, float]:
 
     def spent(number: int) -> float:
         words = {**variant.words, plan.chosen: str(number)}
-        image = work.render(variant.parameters, words, _PILOT_SEED + number, "a pilot")
+        image = work.render(variant.parameters, words, plan.seed(COST_PILOT + number), "a pilot")
         return rays_per_pixel(image) if plan.budget == "rays" else image.seconds
 
     first, second = spent(low), spent(high)
@@ -225,13 +232,13 @@ def words_of(variant: Variant, words: Mapping[str, str]) -> dict[str, str]:
     return {**words, **{k: v for k, v in variant.words.items() if k not in METHOD}}
 
 
-def reference_by(variant: Variant, words: Mapping[str, str], work: Work) -> Reference:
+def reference_by(plan: Plan, variant: Variant, words: Mapping[str, str], work: Work) -> Reference:
     """Renders the reference of a variant's truth."""
     own = words_of(variant, words)
     pictures = []
     for k in range(REFERENCE_SEEDS):
         what = f"reference, seed {k + 1} of {REFERENCE_SEEDS}"
-        pictures.append(work.render(variant.parameters, own, _REFERENCE_SEED + k, what).pixels)
+        pictures.append(work.render(variant.parameters, own, plan.seed(REFERENCE + k), what).pixels)
     return Reference(reference_name(own["estimator"], own["viewing_rays"]), stacked(pictures))
 
 

@@ -93,6 +93,12 @@ class Row:
         return 0.0 if abs(found) < 1e-12 * abs(self.mean) else found
 
     @property
+    def black(self) -> bool:
+        """Whether it found no light, or its reference did not, and that is not known to be a bias."""
+        flagged = self.bias is not None and self.bias.flagged
+        return not flagged and (not self.mean or not self.true_mean)
+
+    @property
     def tested(self) -> bool:
         """Whether its bias could be tested, at least in one tile."""
         return self.bias is not None and self.bias.tested > 0
@@ -175,6 +181,7 @@ def measured(pictures: Pictures, seconds: list[float], reference: Reference | No
                 pictures,
                 reference.pictures if several else reference.pictures[0],
                 reference.error,
+                samples=about["viewing_rays"] * about["shadow_rays"],
             ),
         }
     return Row(**row)

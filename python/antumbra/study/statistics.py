@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from antumbra._words import minus, power_of_ten, written
-from antumbra.study._quantiles import t_quantile
+from antumbra.study.quantiles import t_quantile
 
 LEVEL = 0.95
 Verdict = Literal["supported", "undecided", "not supported"]

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from antumbra.study._quantiles import t_quantile
 from antumbra.study.bias import bias
+from antumbra.study.quantiles import t_quantile
 
 
 def noisy(random, replicates, truth, sigma):
@@ -75,6 +75,30 @@ def test_a_black_tile_is_not_tested_and_the_others_are():
     assert found.tested == (17 - 1 - 4) / (17 - 1)
     # The whole picture is darker than the reference by a fifth.
     assert found.flagged and found.tile is None
+
+
+def test_black_replicates_of_many_samples_lack_light():
+    random = np.random.default_rng(8)
+    lit, black = noisy(random, 6, TRUTH, 0.1), np.zeros((6, 16, 16))
+    for reference in (lit, TRUTH):
+        # A light that one sample in 10⁵ finds, and 6 × 256 pixels: none of exp(−n / 10⁵) pictures would be black.
+        found = bias(black, reference, samples=1024)
+        assert found.flagged and found.tested > 0 and 0 < found.p <= 17 * np.exp(-6 * 256 * 1024 / 1e5)
+        assert found.difference.contains(-TRUTH.mean())
+        assert not bias(black, reference, samples=512).flagged
+    # Three channels are found together; pixels that the reference has no light in count for nothing.
+    colours = np.repeat(lit[..., None], 3, -1)
+    assert bias(np.zeros_like(colours), colours, samples=1024).p == pytest.approx(
+        bias(black, lit, samples=1024).p
+    )
+    half = lit.copy()
+    half[:, 8:] = 0
+    assert not bias(black, half, samples=1024).flagged and bias(black, half, samples=2048).flagged
+    # A black reference is at fault itself, and one that is lit by luck, or too noisy to exclude 0, accuses nobody.
+    lucky = 1e3 * (random.uniform(size=(6, 16, 16)) < 1e-3)
+    for x, reference in ((lit, black), (black, lucky), (black, black)):
+        assert not bias(x, reference, samples=1e9).flagged
+    assert not bias(black, TRUTH, np.full((16, 16), 100.0), samples=1e9).flagged
 
 
 def test_without_noise_only_a_real_difference_counts():

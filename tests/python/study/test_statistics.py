@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from antumbra.study import statistics as st
-from antumbra.study._quantiles import t_quantile
+from antumbra.study.quantiles import t_quantile
 
 M = 2_000
 ALLOWED = 3.3 * math.sqrt(0.95 * 0.05 / M)

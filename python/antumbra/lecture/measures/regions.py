@@ -12,7 +12,7 @@ from antumbra.lecture.measures.replicates import of_interval
 from antumbra.lecture.quantity import Quantity
 from antumbra.lecture.run import Run
 from antumbra.scene import Scene
-from antumbra.study._quantiles import t_quantile
+from antumbra.study.quantiles import t_quantile
 from antumbra.study.statistics import Interval
 
 UMBRA, PENUMBRA, ANTUMBRA, LIT = range(4)
