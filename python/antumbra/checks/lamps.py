@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 Points = NDArray[np.float64]
 
-# Points per side of a lamp in the sums over its area: their error is below 10⁻⁴ of the sum at these distances.
+# Points per side of a lamp in the sums over its area: at these distances the error of the right law's is below 10⁻⁴.
 _GRID = 64
 
 

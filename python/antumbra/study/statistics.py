@@ -73,17 +73,25 @@ def mean(replicates: ArrayLike, level: float = LEVEL) -> Interval:
 def variance(replicates: ArrayLike, level: float = LEVEL) -> Interval:
     """Variance of one replicate of (K, …), K ≥ 3, averaged over the cells: s² = Σ(x_k − x̄)²/(K−1).
 
-    The interval is the jackknife's (Miller 1974, eq. 2.2): its pseudo-values (K (x_k − x̄)² − s²)/(K−2), averaged
-    over the cells, are treated as K independent numbers. Meant for many cells.
+    The interval is the jackknife's: `variance_pseudo_values`, averaged over the cells, are treated as K independent
+    numbers. Meant for many cells.
+    """
+    found = mean(variance_pseudo_values(replicates), level)
+    return Interval(found.value, max(found.low, 0.0), found.high)
+
+
+def variance_pseudo_values(replicates: ArrayLike) -> NDArray[np.float64]:
+    """The jackknife's K estimates of the variance in each cell of (K, …), K ≥ 3; their mean is s².
+
+    (K (x_k − x̄)² − s²)/(K−2) (Miller 1974, eq. 2.2). Single ones may be below 0.
     """
     x = np.asarray(replicates, np.float64)
     count = len(x)
     if count < 3:
         raise ValueError(f"{count} replicates: at least 3 are needed for a variance with an interval")
     squares = (x - x.mean(axis=0)) ** 2
-    pseudo = (count * squares - squares.sum(axis=0) / (count - 1)) / (count - 2)
-    found = mean(pseudo, level)
-    return Interval(found.value, max(found.low, 0.0), found.high)
+    pseudo: NDArray[np.float64] = (count * squares - squares.sum(axis=0) / (count - 1)) / (count - 2)
+    return pseudo
 
 
 def variance_by_replicate(replicates: ArrayLike) -> NDArray[np.float64]:

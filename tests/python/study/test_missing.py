@@ -20,7 +20,7 @@ def under_a_point():
     return scene
 
 
-VIEW = {"eye": (0, 1, 1), "look_at": (0, 0, 0), "fov": 0.6, "seeds": 4}
+VIEW = {"eye": (0, 1, 1), "look_at": (0, 0, 0), "fov": 0.6, "seeds": 6}
 TWO = {"vary": {"estimator": ["area", "hemisphere"]}, "reference": "area", "reference_rays": 64}
 
 
@@ -45,7 +45,7 @@ def test_a_black_row_of_few_samples_is_told_and_does_not_pass(under_a_point):
 @pytest.mark.parametrize(("size", "said"), [("16x12", "not tested: black"), ("128x96", "1 row of 2 biased")])
 def test_the_command_never_finds_no_bias_in_a_black_row(antumbra, tmp_path, size, said):
     (tmp_path / "point.xml").write_text(POINT, encoding="utf-8")
-    vary = ["--vary", "estimator=area,hemisphere", "--reference", "area", "--seeds", "4"]
+    vary = ["--vary", "estimator=area,hemisphere", "--reference", "area", "--seeds", "6"]
     done = antumbra("study", "point.xml", *vary, *RAYS, "--size", size, "-o", "out")
     assert done.code == 0, done.err
     assert said in done.out and "no bias found" not in done.out

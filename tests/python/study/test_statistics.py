@@ -201,3 +201,14 @@ def test_what_cannot_be_answered_is_told():
         st.variance([[1.0], [2.0]])
     with pytest.raises(ValueError, match="above 0"):
         st.slope([1, 2], [[1.0, 0.0], [1.0, 1.0]])
+
+
+def test_pseudo_values_are_the_jackknife_s():
+    x = np.random.default_rng(11).normal(0, 2, (7, 5, 4))
+    found = st.variance_pseudo_values(x)
+    whole = x.var(axis=0, ddof=1)
+    # By their definition, K θ − (K−1) θ without one; sums of seven numbers of double precision.
+    by_hand = [7 * whole - 6 * np.delete(x, k, axis=0).var(axis=0, ddof=1) for k in range(7)]
+    assert np.allclose(found, by_hand, rtol=0, atol=1e-12) and np.allclose(found.mean(axis=0), whole)
+    with pytest.raises(ValueError, match="at least 3"):
+        st.variance_pseudo_values(x[:2])

@@ -33,9 +33,8 @@ def squares(run: Run, sizes: Sequence[float]) -> Classes:
     for s in sizes:
         one = luminances(run, f"one-{s}")
         for name, of in (("lit", lit), ("penumbra", bright[s] & (seen[s] > 0.05) & (seen[s] < 0.95))):
-            each = statistics.variance_by_replicate(one[:, of] / unshadowed[s][of])
-            count = len(each)
-            columns[name].append(((count - 1) * each - each.mean()) / (count - 2))
+            each = statistics.variance_pseudo_values(one[:, of] / unshadowed[s][of])
+            columns[name].append(each.mean(axis=1))
     return {name: np.stack(each, axis=1) for name, each in columns.items()}
 
 

@@ -53,16 +53,11 @@ class Scatter(NamedTuple):
 def scatter_of(one: NDArray[np.float64], place: NDArray[np.float64], many: int) -> Scatter:
     """From one viewing ray with one shadow ray, and with `many` of which the first is the same.
 
-    The mean square of their difference is σ_s² (1 − 1/many). The variance of the second is σ_p² + σ_s²/many; the
-    jackknife's pseudo-values (as in `statistics.variance`) are its estimates by each replicate.
+    The mean square of their difference is σ_s² (1 − 1/many). The variance of the second is σ_p² + σ_s²/many, by each
+    replicate as the jackknife has it.
     """
-    count = len(place)
-    if count < 3:
-        raise ValueError(f"{count} replicates: at least 3 are needed for a variance with an interval")
     light = (one - place) ** 2 / (1 - 1 / many)
-    squares = (place - place.mean(0)) ** 2
-    pseudo = (count * squares - squares.sum(0) / (count - 1)) / (count - 2)
-    return Scatter(pseudo - light / many, light)
+    return Scatter(statistics.variance_pseudo_values(place) - light / many, light)
 
 
 def scatter(run: Run, where: str) -> Scatter:
