@@ -22,6 +22,7 @@ from antumbra.anatomy import Anatomy
 from antumbra.effects import idle
 from antumbra.errors import OptionError, RenderStopped
 from antumbra.estimate import Estimate
+from antumbra.exported import Exported
 from antumbra.hit import Hit, Receivers
 from antumbra.image import Image
 from antumbra.lights import Environment, Light
@@ -95,7 +96,7 @@ def builtins() -> dict[str, str]:
     return {name: shows for name, shows, _ in _core.builtins()}
 
 
-class Scene(Anatomy, Openings, Pieces):
+class Scene(Anatomy, Exported, Openings, Pieces):
     """What there is to see. An empty one is filled by `add_mesh`, `add_shape` and `add_light`.
 
     >>> import numpy as np, antumbra as am

@@ -10,6 +10,7 @@ mod limits;
 pub mod picture;
 mod read;
 mod srgb;
+mod write;
 
 pub use error::{ReadError, WriteError};
 pub use files::{FileError, Files, FolderFiles, MemoryFiles};
@@ -19,3 +20,4 @@ pub use read::{
     DracoAttribute, DracoDecoder, DracoError, DracoMesh, EnvironmentPicture, ReadOptions, UpAxis,
     environment_picture, read, read_environment, read_path, read_with,
 };
+pub use write::{WRITES, Written, is_written, write_scene};

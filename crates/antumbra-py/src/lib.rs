@@ -5,6 +5,7 @@ mod arrays;
 mod ask;
 mod draco;
 mod errors;
+mod export;
 mod info;
 mod kinds;
 mod meshes;
@@ -24,6 +25,8 @@ use pyo3::prelude::*;
 /// What `import antumbra._core` gives.
 #[pymodule(gil_used = false)]
 mod _core {
+    #[pymodule_export]
+    use super::export::check_scene_path;
     #[pymodule_export]
     use super::kinds::metals;
     #[pymodule_export]

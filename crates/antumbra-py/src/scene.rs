@@ -83,6 +83,12 @@ impl PyScene {
         .map_err(|e| errors::scene(&e, &self.file))
     }
 
+    /// A copy of what it is made of.
+    pub fn parts(&self) -> PyResult<SceneBuilder> {
+        let parts = self.with_state(|state| state.builder.clone());
+        parts.ok_or_else(|| errors::value("this scene is finished: what it was made of is gone"))
+    }
+
     /// The file it came from; may be empty.
     pub fn file(&self) -> &str {
         &self.file

@@ -32,14 +32,16 @@ def options() -> list[Option]:
     ]  # fmt: skip
 
 
-def open_scene(scene: str, definitions: tuple[str, ...], reading: Mapping[str, Any]) -> _core.Scene:
-    """Reads or builds it; `reading`: keywords of `load`."""
+def open_scene(
+    scene: str, definitions: tuple[str, ...], reading: Mapping[str, Any], *, keep: bool = False
+) -> _core.Scene:
+    """Reads or builds it; `reading`: keywords of `load`; `keep`: with what it is made of."""
     given = [definition(text) for text in definitions]
     if is_file(scene, reading):
         if given and Path(scene).suffix.lower() != ".xml":
             raise click.UsageError(f"-D {definitions[0]}: {scene} has no parameters")
         try:
-            return _core.Scene.load(scene, parameters=given, keep=False, **reading)
+            return _core.Scene.load(scene, parameters=given, keep=keep, **reading)
         except SceneError as problem:
             if scene in (name for name, _, _ in _core.builtins()):
                 here = f'What lies here under this name hides the built-in scene "{scene}": go to another folder.'
@@ -49,7 +51,7 @@ def open_scene(scene: str, definitions: tuple[str, ...], reading: Mapping[str, A
     if scene not in known:
         hint = _say.did_you_mean(scene, known)
         raise click.UsageError(f'there is no scene "{scene}"{hint} ({", ".join(known)}; a file has a dot)')
-    return _core.Scene.builtin(scene, [(name, number(name, text)) for name, text in given], keep=False)
+    return _core.Scene.builtin(scene, [(name, number(name, text)) for name, text in given], keep=keep)
 
 
 def is_file(scene: str, reading: Mapping[str, Any]) -> bool:

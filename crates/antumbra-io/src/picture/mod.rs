@@ -9,7 +9,9 @@ mod whole;
 pub use exr::{exr_bytes, read_exr, read_exr_bytes, write_exr};
 pub use png::{png_bytes, read_png, read_png_bytes, write_png};
 pub use read::read_picture;
+pub(crate) use tone::Codes;
 pub use tone::{Look, Tone};
+pub(crate) use whole::write_together;
 pub use whole::{check_writable, write_whole};
 
 /// A picture with what else was measured at its pixels, row by row from the top.

@@ -45,15 +45,15 @@ impl Tone {
 }
 
 /// The linear values at which the code changes: code k stands for values between entry k−1 and entry k.
-pub(super) struct Codes([f32; 255]);
+pub(crate) struct Codes([f32; 255]);
 
 impl Codes {
-    pub(super) fn new() -> Codes {
+    pub(crate) fn new() -> Codes {
         Codes(std::array::from_fn(|k| decode((k as f64 + 0.5) / 255.0)))
     }
 
     /// The nearest sRGB code; 0 for what is not a number.
-    pub(super) fn encode(&self, linear: f32) -> u8 {
+    pub(crate) fn encode(&self, linear: f32) -> u8 {
         self.0.partition_point(|t| linear >= *t) as u8
     }
 }

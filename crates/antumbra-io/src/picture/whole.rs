@@ -79,3 +79,38 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
     part.kept = true;
     Ok(())
 }
+
+/// Writes files that belong together, each whole: none takes its place before all are on the disk. The first of the list
+/// names the others and comes last; folders of the others are made.
+pub fn write_together(files: &[(PathBuf, Vec<u8>)]) -> Result<(), WriteError> {
+    let mut made = Folders(Vec::new());
+    let mut parts = Vec::with_capacity(files.len());
+    for (i, (path, bytes)) in files.iter().enumerate() {
+        let folder = path.parent().filter(|p| !p.as_os_str().is_empty() && !p.exists());
+        if let Some(folder) = folder.filter(|_| i > 0) {
+            fs::create_dir(folder).map_err(|e| error(folder, io_words(&e)))?;
+            made.0.push(folder.to_path_buf());
+        }
+        let target = target(path)?;
+        let mut part = beside(path, &target)?;
+        let written = part.file.write_all(bytes).and_then(|()| part.file.sync_all());
+        written.map_err(|e| error(path, io_words(&e)))?;
+        parts.push((part, target));
+    }
+    for ((part, target), (path, _)) in parts.iter_mut().zip(files).rev() {
+        fs::rename(&part.path, &target).map_err(|e| error(path, io_words(&e)))?;
+        part.kept = true;
+    }
+    made.0.clear();
+    Ok(())
+}
+
+/// Folders that were made on the way; removed again, if they are empty, where the work does not come to its end.
+struct Folders(Vec<PathBuf>);
+
+impl Drop for Folders {
+    fn drop(&mut self) {
+        // Nothing better can be done about a folder that cannot be removed.
+        self.0.iter().rev().for_each(|folder| drop(fs::remove_dir(folder)));
+    }
+}

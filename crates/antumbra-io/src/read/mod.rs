@@ -11,7 +11,7 @@ mod pbrt;
 mod ply;
 mod polygon;
 mod stl;
-mod tessellate;
+pub(crate) mod tessellate;
 mod texels;
 mod text;
 mod uri;

@@ -26,7 +26,7 @@ pub(super) fn axes(t: &Transform) -> [DVec3; 3] {
 }
 
 /// The sphere of radius 1; u runs around +z, v from +z down.
-pub(super) fn ball(flipped: bool) -> Mesh {
+pub(crate) fn ball(flipped: bool) -> Mesh {
     let at = |i: u32, j: u32| {
         let theta = PI * f64::from(j) / f64::from(DOWN);
         // Both poles are points, and the last meridian is the first to the bit.
@@ -36,8 +36,29 @@ pub(super) fn ball(flipped: bool) -> Mesh {
     grid(DOWN, flipped, at, at)
 }
 
+/// The disk of radius 1 that faces +z (−z if `turned`) with its area kept; u is the radius, v the angle.
+pub(crate) fn fan(turned: bool) -> Mesh {
+    // The polygon's area is n/2·sin(2π/n) r² where the disk's is π.
+    let step = 2.0 * PI / f64::from(AROUND);
+    let radius = (PI / (0.5 * f64::from(AROUND) * real::sin(step))).sqrt();
+    let mut mesh = Mesh::default();
+    let mut uvs = Vec::new();
+    for i in 0..=AROUND {
+        let (angle, v) = (step * f64::from(i % AROUND), i as f32 / AROUND as f32);
+        let rim = DVec3::new(real::cos(angle), real::sin(angle), 0.0) * radius;
+        mesh.triangles.vertices.extend([[0.0; 3], rim.as_vec3().to_array()]);
+        uvs.extend([[0.0, v], [1.0, v]]);
+        if i < AROUND {
+            let (center, here, next) = (2 * i, 2 * i + 1, 2 * i + 3);
+            mesh.triangles.indices.push(if turned { [center, next, here] } else { [center, here, next] });
+        }
+    }
+    mesh.uvs[0] = Some(uvs);
+    mesh
+}
+
 /// The side of the cylinder of radius 1 from z = 0 to 1.
-pub(super) fn tube(flipped: bool) -> Mesh {
+pub(crate) fn tube(flipped: bool) -> Mesh {
     grid(1, flipped, |i, j| ring(i) + DVec3::Z * f64::from(j), |i, _| ring(i))
 }
 

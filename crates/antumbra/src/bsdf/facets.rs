@@ -54,6 +54,11 @@ impl Facets {
         self.alpha
     }
 
+    /// Their slopes are Beckmann's.
+    pub fn is_beckmann(self) -> bool {
+        self.slopes == Slopes::Beckmann
+    }
+
     /// The two widths differ.
     #[inline]
     pub fn is_stretched(self) -> bool {

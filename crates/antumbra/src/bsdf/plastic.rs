@@ -23,6 +23,16 @@ impl Coat {
         let mean = fresnel::average_of(eta, |mu| fresnel::dielectric(mu, eta).reflected);
         Coat { eta, mean, nonlinear }
     }
+
+    /// n of the coat over n outside.
+    pub fn eta(&self) -> f32 {
+        self.eta
+    }
+
+    /// See [`Coat::new`].
+    pub fn is_nonlinear(&self) -> bool {
+        self.nonlinear
+    }
 }
 
 /// f = F δ/cos + T(ω_o) T(ω_i) ρ / (π η² (1 − ρ R)), T = 1 − F; R = 1 − (1−F̄)/η², the share that the coat sends back

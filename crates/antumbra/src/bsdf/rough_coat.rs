@@ -102,6 +102,16 @@ impl RoughCoat {
         self.facets
     }
 
+    /// n of the coat over n outside.
+    pub fn eta(&self) -> f32 {
+        self.eta
+    }
+
+    /// See [`RoughCoat::new`].
+    pub fn is_nonlinear(&self) -> bool {
+        self.nonlinear
+    }
+
     /// E(ω). Between the tangents of two widths it follows the logarithm of the width along ω, to about 0.01 (α = 0.2 and 0.6).
     #[inline]
     pub(super) fn share(&self, w: Local) -> f32 {

@@ -29,6 +29,11 @@ impl RoughThinDielectric {
         RoughThinDielectric { eta, facets, reflectance, transmittance, kept: facets.kept() }
     }
 
+    /// n of the pane over n around it.
+    pub fn eta(&self) -> f32 {
+        self.eta
+    }
+
     /// Its facets.
     pub fn facets(&self) -> Facets {
         self.facets

@@ -23,6 +23,11 @@ impl ThinDielectric {
         ThinDielectric { eta, reflectance: Rgb::WHITE, transmittance: Rgb::WHITE }
     }
 
+    /// n of the pane over n around it.
+    pub fn eta(&self) -> f32 {
+        self.eta
+    }
+
     /// R for light that meets the pane with this cosine.
     #[inline]
     fn reflected(&self, cos: f32) -> f32 {

@@ -18,7 +18,13 @@ impl SceneBuilder {
     }
 
     /// Checks everything and builds the tree with the threads of `pool`.
-    pub fn build_in(mut self, pool: Pool<'_>) -> Result<Scene, SceneError> {
+    pub fn build_in(self, pool: Pool<'_>) -> Result<Scene, SceneError> {
+        self.checked()?.finished(pool)
+    }
+
+    /// The same scene with every number checked: what makes no sense is left out with a warning or is the error, cameras
+    /// have names, a file without light has its sky. What is drawn, for those who write it elsewhere.
+    pub fn checked(mut self) -> Result<SceneBuilder, SceneError> {
         self.check_materials()?;
         self.check_meshes()?;
         self.check_objects()?;
@@ -27,6 +33,11 @@ impl SceneBuilder {
         self.check_lights();
         self.check_cameras();
         self.add_sky();
+        Ok(self)
+    }
+
+    /// What is checked, in its place, with the tree.
+    fn finished(mut self, pool: Pool<'_>) -> Result<Scene, SceneError> {
         let mut parts = Parts::default();
         let uses = self.mesh_uses();
         let objects = std::mem::take(&mut self.objects);

@@ -20,6 +20,11 @@ impl Tangents {
         Tangents { values, of_corners: false }
     }
 
+    /// One a vertex, if that is what they are: those that a file gave.
+    pub fn per_vertex(&self) -> Option<&[[f32; 4]]> {
+        (!self.of_corners).then_some(&self.values[..])
+    }
+
     /// As MikkTSpace makes them from positions, normals and texture coordinates (set `set`; `downwards`: v grows towards
     /// the bottom of the picture), with what its reader should hear. `None` without texture coordinates.
     pub fn made(mesh: &Mesh, set: usize, downwards: bool) -> Option<(Tangents, Option<String>)> {

@@ -1,19 +1,14 @@
 //! Flat shapes: rectangle and disk.
 
-use std::f64::consts::PI;
-
 use antumbra::scene::Mesh;
-use antumbra_math::{DVec3, real};
+use antumbra_math::DVec3;
 use antumbra_trace::{Shape, Triangles};
 
 use super::super::Reader;
 use super::super::document::Element;
 use super::{Body, Placing};
 use crate::error::ReadError;
-use crate::read::tessellate::similar;
-
-/// Sides of a disk that the core cannot have as one.
-const SIDES: u32 = 256;
+use crate::read::tessellate::{fan, similar};
 
 /// From (−1, −1, 0) to (1, 1, 0), facing +z.
 pub(super) fn rectangle(reader: &mut Reader, element: &Element, at: &Placing) -> Result<Body, ReadError> {
@@ -50,25 +45,4 @@ pub(super) fn disk(reader: &mut Reader, element: &Element, at: &Placing) -> Resu
     }
     let mesh = reader.mesh(format!("disk {flipped}"), |_| Ok(fan(flipped)))?;
     Ok(Body::Mesh(mesh, at.world))
-}
-
-/// A disk of triangles with its area kept; u is the radius, v the angle.
-fn fan(turned: bool) -> Mesh {
-    // The polygon's area is n/2·sin(2π/n) r² where the disk's is π.
-    let step = 2.0 * PI / f64::from(SIDES);
-    let radius = (PI / (0.5 * f64::from(SIDES) * real::sin(step))).sqrt();
-    let mut mesh = Mesh::default();
-    let mut uvs = Vec::new();
-    for i in 0..=SIDES {
-        let (angle, v) = (step * f64::from(i % SIDES), i as f32 / SIDES as f32);
-        let rim = DVec3::new(real::cos(angle), real::sin(angle), 0.0) * radius;
-        mesh.triangles.vertices.extend([[0.0; 3], rim.as_vec3().to_array()]);
-        uvs.extend([[0.0, v], [1.0, v]]);
-        if i < SIDES {
-            let (center, here, next) = (2 * i, 2 * i + 1, 2 * i + 3);
-            mesh.triangles.indices.push(if turned { [center, next, here] } else { [center, here, next] });
-        }
-    }
-    mesh.uvs[0] = Some(uvs);
-    mesh
 }

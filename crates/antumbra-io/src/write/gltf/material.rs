@@ -1,0 +1,292 @@
+//! Materials as metallic-roughness with its extensions: the same where the format has it, else the nearest.
+
+use antumbra::bsdf::{BsdfKind, Facets, Metal};
+use antumbra::scene::{Alpha, Emission, Material, MaterialId, Surface};
+use antumbra_math::Rgb;
+use serde_json::{Map, Value, json};
+
+use super::{Writer, number, numbers};
+use crate::write::light::split;
+
+/// What a material asks of its mesh.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Asks {
+    /// Sets of texture coordinates.
+    pub sets: [bool; 2],
+    /// Tangents.
+    pub tangents: bool,
+}
+
+/// The numbers of the format.
+#[derive(Clone, Copy)]
+struct Look {
+    base: Rgb,
+    metallic: f32,
+    roughness: f32,
+    /// KHR_materials_ior, where it is not 1.5.
+    ior: Option<f32>,
+    /// KHR_materials_specular, where it is not 1.
+    specular: Option<f32>,
+    /// KHR_materials_transmission.
+    through: f32,
+    /// A body of glass, not a pane.
+    body: bool,
+    unlit: bool,
+}
+
+/// A rough white surface that is no metal.
+const ROUGH: Look = Look {
+    base: Rgb::WHITE,
+    metallic: 0.0,
+    roughness: 1.0,
+    ior: None,
+    specular: None,
+    through: 0.0,
+    body: false,
+    unlit: false,
+};
+
+impl Writer<'_, '_> {
+    /// The material of the document for one of the scene; `plain`: without its textures.
+    pub(super) fn material(&mut self, id: MaterialId, plain: bool) -> Result<usize, String> {
+        if let Some(known) = self.made.materials.get(&(id, plain)) {
+            return Ok(*known);
+        }
+        let index = self.add(self.job.material(id), plain)?;
+        self.made.materials.insert((id, plain), index);
+        Ok(index)
+    }
+
+    /// Adds a material to the document.
+    pub(super) fn add(&mut self, m: &Material, plain: bool) -> Result<usize, String> {
+        let place = format!("material \"{}\"", m.name);
+        self.name_the_lost(m, &place);
+        let (look, part) = self.look(m, &place);
+        let mut asks = Asks::default();
+        let mut pbr = Map::new();
+        let [r, g, b] = look.base.0;
+        pbr.insert("baseColorFactor".into(), numbers([r, g, b, m.opacity]));
+        pbr.insert("metallicFactor".into(), number(look.metallic));
+        pbr.insert("roughnessFactor".into(), number(look.roughness));
+        let mut extensions = extensions_of(&look);
+        let mut written = Map::new();
+        if !plain {
+            let painted = Material { alpha: m.alpha, cover: m.cover, ..part.clone() };
+            if let Some(info) = self.base_texture(&painted, &place, &mut asks)? {
+                pbr.insert("baseColorTexture".into(), info);
+            }
+            if let Some(info) = self.metal_rough(part, &place, &mut asks)? {
+                pbr.insert("metallicRoughnessTexture".into(), info);
+            }
+            if let Some(map) = m.normal.or(part.normal) {
+                let mut info = self.plain_texture(map.texture, &mut asks)?;
+                info["scale"] = number(map.scale);
+                written.insert("normalTexture".into(), info);
+                asks.tangents = true;
+            }
+            if let (Some(through), Some(blend)) = (extensions.get_mut(TRANSMISSION), m.blend) {
+                through["transmissionTexture"] = self.plain_texture(blend, &mut asks)?;
+            }
+        }
+        written.insert("pbrMetallicRoughness".into(), Value::Object(pbr));
+        if !m.name.is_empty() {
+            written.insert("name".into(), json!(m.name));
+        }
+        match m.alpha {
+            Alpha::Opaque => None,
+            Alpha::Mask { cutoff } => written.insert("alphaCutoff".into(), number(cutoff)).or(Some(json!("MASK"))),
+            Alpha::Blend => Some(json!("BLEND")),
+        }
+        .and_then(|mode| written.insert("alphaMode".into(), mode));
+        self.shine(m.emission, &mut written, &mut extensions);
+        if m.emission.map_or(!m.one_sided, |e| e.both_sides) {
+            written.insert("doubleSided".into(), json!(true));
+        }
+        self.extensions.extend(extensions.keys().copied());
+        if !extensions.is_empty() {
+            written.insert("extensions".into(), json!(extensions));
+        }
+        self.materials.push(Value::Object(written));
+        self.asks.push(asks);
+        Ok(self.materials.len() - 1)
+    }
+
+    /// emissiveFactor and its strength.
+    fn shine(&mut self, emission: Option<Emission>, written: &mut Map<String, Value>, more: &mut Extensions) {
+        let Some(Emission { radiance, .. }) = emission.filter(|e| !e.radiance.is_black()) else { return };
+        let (color, strength) = split(radiance);
+        written.insert("emissiveFactor".into(), numbers(color.0));
+        if strength != 1.0 {
+            more.insert("KHR_materials_emissive_strength", json!({"emissiveStrength": number(strength)}));
+        }
+    }
+
+    /// What no number of the format can say.
+    fn name_the_lost(&mut self, m: &Material, place: &str) {
+        let black = matches!(m.surface, Surface::Diffuse { albedo } if albedo.is_black());
+        for (lost, what) in [
+            (m.one_sided && !black, "is black from behind: glTF has no such side"),
+            (m.back.is_some(), "has another look on its back: written with that of its front"),
+            (m.bump.is_some(), "is bent by heights, which glTF does not know: written without them"),
+            (m.gloss.is_some(), "has a texture on what it mirrors: written without it"),
+        ] {
+            if lost {
+                self.warn(place, what);
+            }
+        }
+    }
+
+    /// The numbers of a material, and the one whose textures go with them.
+    fn look<'m>(&mut self, m: &'m Material, place: &str) -> (Look, &'m Material)
+    where
+        Self: 'm,
+    {
+        let Surface::Blend { first, second, weight } = m.surface else {
+            return (self.nearest(&m.surface, place), m);
+        };
+        let parts = [first, second].map(|id| self.job.material(id));
+        let glass = match parts[1].surface {
+            Surface::Dielectric(_) | Surface::RoughDielectric(_) => Some(true),
+            Surface::ThinDielectric(_) | Surface::RoughThinDielectric(_) => Some(false),
+            _ => None,
+        };
+        if let (Surface::MetallicRoughness { .. }, Some(body)) = (parts[0].surface, glass) {
+            let look = self.nearest(&parts[0].surface, place);
+            return (Look { through: weight, body, ..look }, parts[0]);
+        }
+        self.warn(place, "blends two looks: written as one, with the mean of their numbers");
+        let mean = m.blend.map_or(1.0, |t| self.job.texture(t).image.mean().0[0]);
+        let t = weight * mean;
+        let looks = parts.map(|part| self.look(part, place));
+        let [(a, _), (b, _)] = looks;
+        let mix = |a: f32, b: f32| a + (b - a) * t;
+        let heavier = looks[usize::from(t > 0.5)];
+        let look = Look {
+            base: a.base.lerp(b.base, t),
+            metallic: mix(a.metallic, b.metallic),
+            roughness: mix(a.roughness, b.roughness),
+            through: mix(a.through, b.through),
+            ..heavier.0
+        };
+        (look, heavier.1)
+    }
+
+    /// The numbers nearest to a surface; says where they are not the same.
+    fn nearest(&mut self, surface: &Surface, place: &str) -> Look {
+        let rough = |facets: Option<Facets>| {
+            let [u, v] = facets.map_or([0.0; 2], Facets::alpha);
+            (u * v).sqrt().sqrt()
+        };
+        let mut said = |what: &str| self.warn(place, format!("{what}: written as the nearest that glTF has"));
+        let facets = surface.facets();
+        if facets.is_some_and(|f| f.is_stretched() || f.is_beckmann()) {
+            said("has facets of two widths, or Beckmann's");
+        }
+        match *surface {
+            Surface::Diffuse { albedo } => Look { base: albedo, specular: Some(0.0), ..ROUGH },
+            Surface::Unlit { color } => Look { base: color, unlit: true, ..ROUGH },
+            Surface::MetallicRoughness { base, metallic, roughness, f0 } => {
+                Look { base, metallic, roughness, ior: index(f0), ..ROUGH }
+            }
+            Surface::Mirror { reflectance } => {
+                said("is a perfect mirror");
+                Look { base: reflectance, metallic: 1.0, roughness: 0.0, ..ROUGH }
+            }
+            Surface::Conductor(c) => {
+                said("is a metal by its η and k");
+                let base = c.reflectance * straight_on(&c.metal);
+                Look { base, metallic: 1.0, roughness: 0.0, ..ROUGH }
+            }
+            Surface::RoughConductor(c) => {
+                said("is a metal by its η and k");
+                let base = c.reflectance * straight_on(&c.metal);
+                Look { base, metallic: 1.0, roughness: rough(facets), ..ROUGH }
+            }
+            Surface::Plastic { albedo, coat, .. } => {
+                said("is plastic");
+                Look { base: albedo, roughness: 0.0, ior: other(coat.eta()), ..ROUGH }
+            }
+            Surface::RoughPlastic { albedo, coat, .. } => {
+                said("is plastic");
+                Look { base: albedo, roughness: rough(facets), ior: other(coat.eta()), ..ROUGH }
+            }
+            Surface::Dielectric(d) => self.glass(d.index_below(), d.transmittance, d.reflectance, 0.0, true, place),
+            Surface::RoughDielectric(d) => {
+                self.glass(d.index_below(), d.transmittance, d.reflectance, rough(facets), true, place)
+            }
+            Surface::ThinDielectric(d) => {
+                self.glass(Some(d.eta()), d.transmittance, d.reflectance, 0.0, false, place)
+            }
+            Surface::RoughThinDielectric(d) => {
+                self.glass(Some(d.eta()), d.transmittance, d.reflectance, rough(facets), false, place)
+            }
+            // Parts that are blends are looked through before.
+            Surface::Blend { .. } => ROUGH,
+        }
+    }
+
+    fn glass(
+        &mut self,
+        eta: Option<f32>,
+        transmittance: Rgb,
+        reflectance: Rgb,
+        roughness: f32,
+        body: bool,
+        place: &str,
+    ) -> Look {
+        let eta = eta.unwrap_or(1.5);
+        if eta < 1.0 {
+            self.warn(place, "is thinner than what is around it: glTF has no such glass, written with its inverse");
+        }
+        if reflectance != Rgb::WHITE {
+            self.warn(place, "dims what it mirrors: glTF's glass does not");
+        }
+        let ior = other(if eta < 1.0 { 1.0 / eta } else { eta });
+        Look { base: transmittance, roughness, ior, through: 1.0, body, ..ROUGH }
+    }
+}
+
+/// Extensions of a material by name.
+type Extensions = std::collections::BTreeMap<&'static str, Value>;
+
+const TRANSMISSION: &str = "KHR_materials_transmission";
+
+fn extensions_of(look: &Look) -> Extensions {
+    let mut all = Extensions::new();
+    if let Some(ior) = look.ior {
+        all.insert("KHR_materials_ior", json!({"ior": number(ior)}));
+    }
+    if let Some(specular) = look.specular {
+        all.insert("KHR_materials_specular", json!({"specularFactor": number(specular)}));
+    }
+    if look.through > 0.0 {
+        all.insert(TRANSMISSION, json!({"transmissionFactor": number(look.through)}));
+        if look.body {
+            all.insert("KHR_materials_volume", json!({"thicknessFactor": 1.0}));
+        }
+    }
+    if look.unlit {
+        all.insert("KHR_materials_unlit", json!({}));
+    }
+    all
+}
+
+/// An index of refraction that is not the usual one.
+fn other(ior: f32) -> Option<f32> {
+    (ior != 1.5).then_some(ior)
+}
+
+/// The index whose reflectance straight on is `f0`: n = (1 + √f0) / (1 − √f0).
+fn index(f0: f32) -> Option<f32> {
+    let root = f0.min(0.9).sqrt();
+    // 0.04 is 1.5 to the last digits.
+    ((f0 - 0.04).abs() > 1e-7).then(|| (1.0 + root) / (1.0 - root))
+}
+
+/// What a metal reflects straight on: ((η−1)² + k²) / ((η+1)² + k²).
+fn straight_on(metal: &Metal) -> Rgb {
+    Rgb(std::array::from_fn(|c| {
+        let (n, k) = (metal.eta.0[c], metal.k.0[c]);
+        ((n - 1.0) * (n - 1.0) + k * k) / ((n + 1.0) * (n + 1.0) + k * k)
+    }))
+}

@@ -1,0 +1,244 @@
+//! Looks: each material as bsdf plugins, and what wraps them.
+
+use antumbra::bsdf::{BsdfKind, Facets, Metal};
+use antumbra::scene::{Material, MaterialId, Surface};
+use antumbra_math::Rgb;
+
+use super::Writer;
+use super::texture::Part;
+use super::xml::Element;
+
+/// With which of its textures a material is written.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Dress {
+    /// All of them.
+    Textured,
+    /// None: round shapes show none.
+    Plain,
+    /// Its colour is that of the vertices.
+    Painted,
+}
+
+impl Writer<'_, '_> {
+    /// Names the look of a material, which stands before the shapes; `plain`: without its textures.
+    pub(super) fn look(&mut self, id: MaterialId, plain: bool) -> Result<Element, String> {
+        let name = match self.looks.get(&(id, plain)) {
+            Some(known) => known.clone(),
+            None => {
+                let material = self.job.material(id);
+                let name = self.ids.give(&material.name, "material");
+                let dress = if plain { Dress::Plain } else { Dress::Textured };
+                let bsdf = self.whole(material, dress)?.with("id", name.clone());
+                self.bsdfs.push(bsdf);
+                self.looks.insert((id, plain), name.clone());
+                name
+            }
+        };
+        Ok(Element::new("ref").with("id", name))
+    }
+
+    /// The look of a material under vertex colours, written out.
+    pub(super) fn painted_look(&mut self, id: MaterialId) -> Result<Element, String> {
+        self.whole(self.job.material(id), Dress::Painted)
+    }
+
+    fn whole(&mut self, m: &Material, dress: Dress) -> Result<Element, String> {
+        let bsdf = self.sided(m, dress)?;
+        self.masked(m, dress, bsdf)
+    }
+
+    /// Its two sides, or the two that it blends.
+    fn sided(&mut self, m: &Material, dress: Dress) -> Result<Element, String> {
+        if let Surface::Blend { first, second, weight } = m.surface {
+            let parts = [first, second].map(|id| self.job.material(id));
+            let part = m.blend.filter(|_| dress != Dress::Plain).map(|id| (id, Part::One(0)));
+            let weight = self.measure("weight", weight, part)?;
+            let [first, second] = [self.sided(parts[0], dress)?, self.sided(parts[1], dress)?];
+            return Ok(Element::plugin("bsdf", "blendbsdf").add(weight).add(first).add(second));
+        }
+        let front = self.leaf(m, dress)?;
+        let glass = matches!(
+            m.surface,
+            Surface::Dielectric(_)
+                | Surface::ThinDielectric(_)
+                | Surface::RoughDielectric(_)
+                | Surface::RoughThinDielectric(_)
+        );
+        let twosided = || Element::plugin("bsdf", "twosided");
+        match m.back {
+            Some(back) => {
+                let back = self.leaf(self.job.material(back), dress)?;
+                Ok(twosided().add(front).add(back))
+            }
+            None if glass || m.one_sided => Ok(front),
+            None => Ok(twosided().add(front)),
+        }
+    }
+
+    /// One side, with what bends its normal.
+    fn leaf(&mut self, m: &Material, dress: Dress) -> Result<Element, String> {
+        let mut bsdf = self.plain(m, dress)?;
+        if dress == Dress::Plain {
+            return Ok(bsdf);
+        }
+        let place = format!("material \"{}\"", m.name);
+        if let Some(map) = m.normal {
+            if map.scale != 1.0 {
+                self.warn(place, "scales its map of normals, which Mitsuba does not: written unscaled");
+            }
+            let texture = self.job.texture(map.texture);
+            let file = self.picture(&texture.image, Part::Numbers, Rgb::WHITE)?;
+            let map = self.bitmap("normalmap", texture, &file);
+            bsdf = Element::plugin("bsdf", "normalmap").add(map).add(bsdf);
+        }
+        if let Some(map) = m.bump {
+            let texture = self.job.texture(map.texture);
+            let file = self.picture(&texture.image, Part::One(0), Rgb::WHITE)?;
+            let heights = self.bitmap("", texture, &file);
+            bsdf = Element::plugin("bsdf", "bumpmap").add(heights).float("scale", map.scale).add(bsdf);
+        }
+        Ok(bsdf)
+    }
+
+    /// The plugin nearest to a surface.
+    fn plain(&mut self, m: &Material, dress: Dress) -> Result<Element, String> {
+        let place = format!("material \"{}\"", m.name);
+        let new = |kind: &str| Element::plugin("bsdf", kind);
+        let gloss = m.gloss.filter(|_| dress != Dress::Plain);
+        Ok(match m.surface {
+            Surface::Diffuse { albedo } => new("diffuse").add(self.color("reflectance", albedo, m, dress)?),
+            Surface::Unlit { color } => {
+                self.warn(place, "shows its colour whatever the light: Mitsuba has no such look, written as diffuse");
+                new("diffuse").add(self.color("reflectance", color, m, dress)?)
+            }
+            Surface::Mirror { reflectance } => {
+                new("conductor").add(self.color("specular_reflectance", reflectance, m, dress)?)
+            }
+            Surface::Conductor(c) => {
+                let color = self.color("specular_reflectance", c.reflectance, m, dress)?;
+                metal(new("conductor"), &c.metal).add(color)
+            }
+            Surface::RoughConductor(c) => {
+                let color = self.color("specular_reflectance", c.reflectance, m, dress)?;
+                let bsdf = metal(new("roughconductor"), &c.metal).add(color);
+                self.rough(bsdf, m, c.facets(), dress)?
+            }
+            Surface::Dielectric(d) => {
+                let glass = ior(new("dielectric"), d.index_below().unwrap_or(1.5));
+                self.glass(glass, m, d.transmittance, d.reflectance, dress)?
+            }
+            Surface::ThinDielectric(d) => {
+                self.glass(ior(new("thindielectric"), d.eta()), m, d.transmittance, d.reflectance, dress)?
+            }
+            Surface::RoughThinDielectric(d) => {
+                self.warn(place, "is a pane of ground glass, which Mitsuba does not have: written as a clear one");
+                self.glass(ior(new("thindielectric"), d.eta()), m, d.transmittance, d.reflectance, dress)?
+            }
+            Surface::RoughDielectric(d) => {
+                let glass = ior(new("roughdielectric"), d.index_below().unwrap_or(1.5));
+                let glass = self.glass(glass, m, d.transmittance, d.reflectance, dress)?;
+                self.rough(glass, m, d.facets(), dress)?
+            }
+            Surface::Plastic { albedo, coat, gloss: factor } => {
+                let bsdf = ior(new("plastic"), coat.eta()).boolean("nonlinear", coat.is_nonlinear());
+                let bsdf = bsdf.add(self.color("diffuse_reflectance", albedo, m, dress)?);
+                bsdf.add(self.paint("specular_reflectance", factor, gloss)?)
+            }
+            Surface::RoughPlastic { albedo, coat, gloss: factor } => {
+                let bsdf = ior(new("roughplastic"), coat.eta()).boolean("nonlinear", coat.is_nonlinear());
+                let bsdf = bsdf.add(self.color("diffuse_reflectance", albedo, m, dress)?);
+                let bsdf = bsdf.add(self.paint("specular_reflectance", factor, gloss)?);
+                self.one_width(bsdf, m, coat.facets())
+            }
+            Surface::MetallicRoughness { base, metallic, roughness, f0 } => {
+                self.warn(place, "is metallic-roughness: written as principled, whose diffuse part differs a little");
+                let bsdf = new("principled").add(self.color("base_color", base, m, dress)?);
+                let textured = dress != Dress::Plain;
+                let metal = m.metallic.filter(|_| textured).map(|c| (c.texture, Part::One(c.component)));
+                let rough = m.roughness.as_ref().filter(|_| textured);
+                let rough = rough.map(|r| (r.channel.texture, Part::One(r.channel.component)));
+                let bsdf = bsdf.add(self.measure("metallic", metallic, metal)?);
+                let bsdf = bsdf.add(self.measure("roughness", roughness, rough)?);
+                // Straight on, 0.08 is Mitsuba's largest.
+                let specular = f0 / 0.08;
+                if specular <= 1.0 {
+                    bsdf.float("specular", specular)
+                } else {
+                    bsdf.float("eta", (1.0 + f0.sqrt()) / (1.0 - f0.sqrt()))
+                }
+            }
+            Surface::Blend { .. } => return Err("a blend on the back of a material".into()),
+        })
+    }
+
+    /// The colour of a surface, with its texture or that of the vertices.
+    fn color(&mut self, name: &str, color: Rgb, m: &Material, dress: Dress) -> Result<Element, String> {
+        match dress {
+            Dress::Plain => self.paint(name, color, None),
+            Dress::Textured => self.paint(name, color, m.color),
+            Dress::Painted => {
+                let texture = Element::plugin("texture", "mesh_attribute").with("name", name);
+                Ok(texture.string("name", "vertex_color"))
+            }
+        }
+    }
+
+    fn glass(
+        &mut self,
+        bsdf: Element,
+        m: &Material,
+        transmittance: Rgb,
+        reflectance: Rgb,
+        dress: Dress,
+    ) -> Result<Element, String> {
+        let gloss = m.gloss.filter(|_| dress != Dress::Plain);
+        let bsdf = bsdf.add(self.paint("specular_reflectance", reflectance, gloss)?);
+        Ok(bsdf.add(self.color("specular_transmittance", transmittance, m, dress)?))
+    }
+
+    /// Its facets, with the texture of their widths.
+    fn rough(
+        &mut self,
+        bsdf: Element,
+        m: &Material,
+        facets: Facets,
+        dress: Dress,
+    ) -> Result<Element, String> {
+        let bsdf = bsdf.string("distribution", if facets.is_beckmann() { "beckmann" } else { "ggx" });
+        let part = m.roughness.as_ref().filter(|_| dress != Dress::Plain).map(|r| {
+            let component = r.channel.component;
+            (r.channel.texture, if r.squared { Part::Square(component) } else { Part::One(component) })
+        });
+        let [u, v] = facets.alpha();
+        if u == v {
+            return Ok(bsdf.add(self.measure("alpha", u, part)?));
+        }
+        let both = [self.measure("alpha_u", u, part)?, self.measure("alpha_v", v, part)?];
+        Ok(bsdf.all(both))
+    }
+
+    /// The facets of a coat, which has one width in Mitsuba.
+    fn one_width(&mut self, bsdf: Element, m: &Material, facets: Facets) -> Element {
+        let [u, v] = facets.alpha();
+        if u != v || m.roughness.is_some() {
+            let what = "is plastic whose roughness varies: Mitsuba's has one width, its mean is written";
+            self.warn(format!("material \"{}\"", m.name), what);
+        }
+        let mean = m.roughness.as_ref().map_or(1.0, |r| {
+            let Rgb(mean) = self.job.texture(r.channel.texture).image.mean();
+            let mean = mean[usize::from(r.channel.component.min(2))];
+            if r.squared { mean * mean } else { mean }
+        });
+        let bsdf = bsdf.string("distribution", if facets.is_beckmann() { "beckmann" } else { "ggx" });
+        bsdf.float("alpha", (u * v).sqrt() * mean)
+    }
+}
+
+fn metal(bsdf: Element, metal: &Metal) -> Element {
+    bsdf.rgb("eta", metal.eta).rgb("k", metal.k)
+}
+
+/// n inside over n outside.
+fn ior(bsdf: Element, eta: f32) -> Element {
+    bsdf.float("int_ior", eta).float("ext_ior", 1)
+}
