@@ -1,4 +1,4 @@
-//! Readers (bytes → scene builder), writers and pictures. Floor 9.
+//! Readers (bytes → scene builder), writers (checked scene → files) and pictures. Floor 9.
 //!
 //! Inputs are untrusted: every count is held against the size of the file before anything is allocated, paths stay in
 //! the scene's folder, and what is wrong is a [`ReadError`], never a panic. Outputs appear whole or not at all.

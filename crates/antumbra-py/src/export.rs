@@ -22,7 +22,8 @@ impl PyScene {
         let builder = self.parts()?;
         let written = py.detach(|| write_scene(Path::new(path), builder, self.origin()));
         let written = written.map_err(|e| errors::write(&e))?;
-        let files = written.files.into_iter().map(|(path, bytes)| (path.display().to_string(), bytes)).collect();
+        let files =
+            written.files.into_iter().map(|(path, bytes)| (path.display().to_string(), bytes)).collect();
         Ok((files, written.messages.iter().map(said).collect()))
     }
 }

@@ -69,5 +69,7 @@ def _ending(files: list[tuple[str, int]], seconds: float) -> str:
         folders = sorted({str(Path(name).parent) for name, _ in beside})
         inside = str(Path(path).parent)
         where = "beside it" if folders == [inside] else f"in {', '.join(f for f in folders if f != inside)}"
-        parts.append(f"{_say.some(len(beside), 'file')} {where}, {_say.size(sum(size for _, size in beside))}")
+        parts.append(
+            f"{_say.some(len(beside), 'file')} {where}, {_say.size(sum(size for _, size in beside))}"
+        )
     return f"{path}   {' · '.join(parts)}"

@@ -37,6 +37,8 @@ struct Job<'a> {
     stem: String,
     /// Files beside the scene's own: path relative to it, with `/` between its parts, and bytes.
     beside: Vec<(String, Vec<u8>)>,
+    /// Its light from all around is what readers give to every file without light.
+    sky_is_default: bool,
     said: Counted,
 }
 
@@ -58,10 +60,12 @@ pub fn is_written(path: &Path) -> bool {
 pub fn write_scene(path: &Path, scene: SceneBuilder, origin: [f64; 3]) -> Result<Written, WriteError> {
     let fail = |why: String| WriteError { file: path.display().to_string(), why };
     let write = writer(path)?;
+    let unlit = scene.sky_if_unlit && scene.lights.is_empty();
     let mut scene = scene.checked().map_err(|e| fail(e.to_string()))?;
     shift(&mut scene, DVec3::from(origin));
     let stem = path.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
-    let mut job = Job { scene: &scene, stem, beside: Vec::new(), said: Counted::default() };
+    let sky_is_default = unlit && !scene.lights.is_empty();
+    let mut job = Job { scene: &scene, stem, beside: Vec::new(), sky_is_default, said: Counted::default() };
     let bytes = write(&mut job).map_err(fail)?;
     let Job { beside, said, .. } = job;
     let folder = path.parent().unwrap_or(Path::new(""));
@@ -89,7 +93,9 @@ fn shift(scene: &mut SceneBuilder, by: DVec3) {
     for object in &mut scene.objects {
         match &mut object.body {
             Body::Mesh(_) => object.transform.translation += by,
-            Body::Shape(Shape::Sphere { center, .. } | Shape::Disk { center, .. }) => *center = moved(*center),
+            Body::Shape(Shape::Sphere { center, .. } | Shape::Disk { center, .. }) => {
+                *center = moved(*center)
+            }
             Body::Shape(Shape::Cylinder { p, q, .. }) => (*p, *q) = (moved(*p), moved(*q)),
         }
     }
@@ -121,6 +127,25 @@ impl<'a> Job<'a> {
 
     fn mesh(&self, id: u32) -> &'a Mesh {
         &self.scene.meshes[id as usize]
+    }
+
+    /// Lower and upper corner of all objects; `None` if there are none.
+    fn bounds(&self) -> Option<[DVec3; 2]> {
+        let wide = |p: &[f32; 3]| DVec3::from(p.map(f64::from));
+        let grown = |b: [DVec3; 2], p: DVec3| [b[0].min(p), b[1].max(p)];
+        let empty = [DVec3::INFINITY, DVec3::NEG_INFINITY];
+        let whole = self.objects().fold(empty, |b, o| match &o.body {
+            Body::Mesh(m) => {
+                let vertices = &self.mesh(*m).triangles.vertices;
+                vertices.iter().fold(b, |b, v| grown(b, o.transform.point(wide(v))))
+            }
+            Body::Shape(Shape::Sphere { center, radius } | Shape::Disk { center, radius, .. }) => {
+                let around = DVec3::splat(f64::from(*radius));
+                grown(grown(b, wide(center) - around), wide(center) + around)
+            }
+            Body::Shape(Shape::Cylinder { p, q, .. }) => grown(grown(b, wide(p)), wide(q)),
+        });
+        (whole[0].x <= whole[1].x).then_some(whole)
     }
 
     /// Adds a file beside the scene's own.

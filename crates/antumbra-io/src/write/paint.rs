@@ -40,10 +40,9 @@ impl Codes8 {
                 let data = t.iter().flat_map(|texel| texel[..keep].to_vec()).collect();
                 Codes8 { width, height, alpha, data, rounded: false }
             }
-            _ => Codes8 {
-                rounded: true,
-                ..Codes8::made([width, height], meaning, &|x, y| image.texel(x, y))
-            },
+            _ => {
+                Codes8 { rounded: true, ..Codes8::made([width, height], meaning, &|x, y| image.texel(x, y)) }
+            }
         }
     }
 

@@ -47,7 +47,7 @@ impl Tangents {
 
     /// Those of the three corners of triangle `local`.
     #[inline]
-    pub(super) fn corners(&self, indices: &[[u32; 3]], local: u32) -> [[f32; 4]; 3] {
+    pub fn corners(&self, indices: &[[u32; 3]], local: u32) -> [[f32; 4]; 3] {
         if self.of_corners {
             [0, 1, 2].map(|k| self.values[3 * local as usize + k])
         } else {

@@ -15,7 +15,10 @@ impl Writer<'_, '_> {
     pub(super) fn camera(&mut self, camera: &Camera) {
         let place = format!("camera \"{}\"", camera.name);
         for (lost, what) in [
-            (camera.lens.is_some_and(|l| l.radius > 0.0), "has a lens, which glTF does not know: written as a pinhole"),
+            (
+                camera.lens.is_some_and(|l| l.radius > 0.0),
+                "has a lens, which glTF does not know: written as a pinhole",
+            ),
             (camera.shift != [0.0; 2], "looks past the middle of its picture: glTF cannot say so"),
             (camera.mirrored, "shows left as right: glTF cannot say so"),
         ] {

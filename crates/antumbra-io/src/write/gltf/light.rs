@@ -24,7 +24,8 @@ impl Writer<'_, '_> {
                 Light::Point(l) => self.punctual(name, "point", l.intensity, at(l.position), None),
                 Light::Spot(l) => {
                     if l.edge != SpotEdge::Smooth {
-                        let what = "is a spot whose edge falls off in another way than glTF's: written with that";
+                        let what =
+                            "is a spot whose edge falls off in another way than glTF's: written with that";
                         self.warn(place, what);
                     }
                     let cone = json!({"innerConeAngle": number(l.inner), "outerConeAngle": number(l.outer)});
@@ -37,7 +38,8 @@ impl Writer<'_, '_> {
                     self.punctual(name, "directional", l.irradiance, node, None);
                 }
                 Light::Sun(l) => {
-                    let what = "has no size in glTF: it shines from one direction, its shadows have hard edges";
+                    let what =
+                        "has no size in glTF: it shines from one direction, its shadows have hard edges";
                     self.warn(place, what);
                     let irradiance = sun_irradiance(l.radiance, l.half_angle);
                     let node = json!({"rotation": facing(-l.to_light)});
@@ -108,13 +110,15 @@ impl Writer<'_, '_> {
     fn environment(&mut self) -> Result<(), String> {
         let lights = &self.job.scene.lights;
         let all: Vec<_> = environment::all(lights).collect();
-        if all.is_empty() {
+        // Whoever reads the file gives it the default sky again.
+        if all.is_empty() || self.job.sky_is_default {
             return Ok(());
         }
         let name = format!("{}-environment.exr", self.job.stem);
         let bytes = environment::exr(&all)?;
         self.job.file(&name, bytes);
-        let what = format!("light from all around has no place in glTF: it lies beside, for `environment` = {name}");
+        let what =
+            format!("light from all around has no place in glTF: it lies beside, for `environment` = {name}");
         self.warn("", what);
         Ok(())
     }

@@ -94,7 +94,9 @@ impl Writer<'_, '_> {
         }
         match m.alpha {
             Alpha::Opaque => None,
-            Alpha::Mask { cutoff } => written.insert("alphaCutoff".into(), number(cutoff)).or(Some(json!("MASK"))),
+            Alpha::Mask { cutoff } => {
+                written.insert("alphaCutoff".into(), number(cutoff)).or(Some(json!("MASK")))
+            }
             Alpha::Blend => Some(json!("BLEND")),
         }
         .and_then(|mode| written.insert("alphaMode".into(), mode));
@@ -210,7 +212,9 @@ impl Writer<'_, '_> {
                 said("is plastic");
                 Look { base: albedo, roughness: rough(facets), ior: other(coat.eta()), ..ROUGH }
             }
-            Surface::Dielectric(d) => self.glass(d.index_below(), d.transmittance, d.reflectance, 0.0, true, place),
+            Surface::Dielectric(d) => {
+                self.glass(d.index_below(), d.transmittance, d.reflectance, 0.0, true, place)
+            }
             Surface::RoughDielectric(d) => {
                 self.glass(d.index_below(), d.transmittance, d.reflectance, rough(facets), true, place)
             }
@@ -236,7 +240,10 @@ impl Writer<'_, '_> {
     ) -> Look {
         let eta = eta.unwrap_or(1.5);
         if eta < 1.0 {
-            self.warn(place, "is thinner than what is around it: glTF has no such glass, written with its inverse");
+            self.warn(
+                place,
+                "is thinner than what is around it: glTF has no such glass, written with its inverse",
+            );
         }
         if reflectance != Rgb::WHITE {
             self.warn(place, "dims what it mirrors: glTF's glass does not");

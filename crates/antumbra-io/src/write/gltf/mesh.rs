@@ -6,7 +6,7 @@ use antumbra::scene::{Body, MaterialId, Mesh, Object};
 use antumbra_math::{DVec3, Transform};
 use serde_json::{Value, json};
 
-use super::Writer;
+use super::{Writer, tangents};
 use crate::write::Job;
 use crate::write::solids::{self, Solid};
 
@@ -28,8 +28,6 @@ pub(super) struct Geometry {
     vertices: usize,
     attributes: BTreeMap<String, usize>,
     indices: Option<usize>,
-    /// Written where a normal map asks for it.
-    tangents: Option<usize>,
 }
 
 impl Writer<'_, '_> {
@@ -84,11 +82,17 @@ impl Writer<'_, '_> {
         if let Some(known) = self.made.meshes.get(&(source, material)) {
             return Ok(*known);
         }
-        let mut geometry = match self.made.geometries.get(&source) {
-            Some(known) => known.clone(),
-            None => self.geometry(mesh),
-        };
         let asks = self.asks[material];
+        let tangents = mesh.tangents.as_ref().filter(|_| asks.tangents && mesh.normals.is_some());
+        let key = (source, tangents.is_some());
+        let mut geometry = match (self.made.geometries.get(&key), tangents) {
+            (Some(known), _) => known.clone(),
+            (None, None) => self.geometry(mesh, None),
+            (None, Some(tangents)) => {
+                let (split, values) = tangents::split(mesh, tangents);
+                self.geometry(&split, Some(&values))
+            }
+        };
         for set in 0..2 {
             let name = format!("TEXCOORD_{set}");
             let asked = asks.sets[set..].contains(&true);
@@ -98,10 +102,7 @@ impl Writer<'_, '_> {
                 geometry.attributes.insert(name, zeros);
             }
         }
-        self.made.geometries.insert(source, geometry.clone());
-        if let Some(tangents) = geometry.tangents.filter(|_| asks.tangents) {
-            geometry.attributes.insert("TANGENT".into(), tangents);
-        }
+        self.made.geometries.insert(key, geometry.clone());
         let mut primitive = json!({"attributes": geometry.attributes, "material": material});
         if let Some(indices) = geometry.indices {
             primitive["indices"] = json!(indices);
@@ -115,7 +116,7 @@ impl Writer<'_, '_> {
         Ok(self.meshes.len() - 1)
     }
 
-    fn geometry(&mut self, mesh: &Mesh) -> Geometry {
+    fn geometry(&mut self, mesh: &Mesh, tangents: Option<&[[f32; 4]]>) -> Geometry {
         let vertices = &mesh.triangles.vertices;
         let buffer = &mut self.buffer;
         let mut attributes = BTreeMap::new();
@@ -136,12 +137,14 @@ impl Writer<'_, '_> {
         if let Some(colors) = &mesh.colors {
             attributes.insert("COLOR_0".into(), buffer.vectors(colors, false));
         }
-        let tangents = mesh.tangents.as_ref().and_then(|t| t.per_vertex()).filter(|t| are_tangents(t));
-        let tangents = tangents.filter(|_| mesh.normals.is_some()).map(|t| buffer.vectors(t, false));
-        let in_order = mesh.triangles.indices.as_flattened().iter().enumerate().all(|(i, v)| i == *v as usize);
+        if let Some(tangents) = tangents.filter(|t| are_tangents(t)) {
+            attributes.insert("TANGENT".into(), buffer.vectors(tangents, false));
+        }
+        let in_order =
+            mesh.triangles.indices.as_flattened().iter().enumerate().all(|(i, v)| i == *v as usize);
         let in_order = in_order && mesh.triangles.indices.len() * 3 == vertices.len();
         let indices = (!in_order).then(|| buffer.indices(&mesh.triangles.indices, vertices.len()));
-        Geometry { name: mesh.name.clone(), vertices: vertices.len(), attributes, indices, tangents }
+        Geometry { name: mesh.name.clone(), vertices: vertices.len(), attributes, indices }
     }
 }
 
@@ -163,9 +166,9 @@ fn unit(normals: &[[f32; 3]]) -> Vec<[f32; 3]> {
 
 /// They are what the format asks of tangents.
 fn are_tangents(tangents: &[[f32; 4]]) -> bool {
-    tangents.iter().all(|[x, y, z, w]| {
-        ((x * x + y * y + z * z).sqrt() - 1.0).abs() <= UNIT && (*w == 1.0 || *w == -1.0)
-    })
+    tangents
+        .iter()
+        .all(|[x, y, z, w]| ((x * x + y * y + z * z).sqrt() - 1.0).abs() <= UNIT && (*w == 1.0 || *w == -1.0))
 }
 
 /// The columns of a 4 × 4 matrix.

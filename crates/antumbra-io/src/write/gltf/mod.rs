@@ -8,6 +8,7 @@ mod camera;
 mod light;
 mod material;
 mod mesh;
+mod tangents;
 mod texture;
 
 use std::collections::{BTreeSet, HashMap};
@@ -38,7 +39,7 @@ struct Writer<'j, 'a> {
 /// What was written already.
 #[derive(Default)]
 struct Made {
-    geometries: HashMap<mesh::Source, mesh::Geometry>,
+    geometries: HashMap<(mesh::Source, bool), mesh::Geometry>,
     meshes: HashMap<(mesh::Source, usize), usize>,
     materials: HashMap<(u32, bool), usize>,
     images: texture::Images,
@@ -55,7 +56,8 @@ pub(super) fn glb(job: &mut Job) -> Result<Vec<u8>, String> {
         chunks.push((b"BIN\0", &numbers));
     }
     let whole: usize = chunks.iter().map(|(_, chunk)| chunk.len() + 8).sum::<usize>() + 12;
-    let length = u32::try_from(whole).map_err(|_| format!("{whole} bytes: a .glb holds 4 GiB; .gltf holds more"))?;
+    let length =
+        u32::try_from(whole).map_err(|_| format!("{whole} bytes: a .glb holds 4 GiB; .gltf holds more"))?;
     bytes.extend_from_slice(b"glTF");
     bytes.extend_from_slice(&2u32.to_le_bytes());
     bytes.extend_from_slice(&length.to_le_bytes());

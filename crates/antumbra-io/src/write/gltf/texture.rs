@@ -111,7 +111,10 @@ impl Writer<'_, '_> {
         };
         let color = m.color.map(|id| self.job.texture(id));
         if let (Some(id), Some(_)) = (m.color, color.filter(|color| !alike(color, cover))) {
-            self.warn(place, "its alpha lies on it in another way than its colour: written without the alpha");
+            self.warn(
+                place,
+                "its alpha lies on it in another way than its colour: written without the alpha",
+            );
             return self.whole(id, Meaning::Color, asks).map(Some);
         }
         let texel = |x, y| {
@@ -129,7 +132,8 @@ impl Writer<'_, '_> {
         asks: &mut Asks,
     ) -> Result<Option<Value>, String> {
         let metallic = m.metallic.filter(|_| is_metal_rough(&m.surface));
-        let roughness = m.roughness.as_ref().filter(|_| is_metal_rough(&m.surface) || m.surface.facets().is_some());
+        let roughness =
+            m.roughness.as_ref().filter(|_| is_metal_rough(&m.surface) || m.surface.facets().is_some());
         // Facets go with the square of what the format calls roughness.
         let rooted = roughness.is_some_and(|r| !is_metal_rough(&m.surface) && !r.squared);
         let roughness = roughness.map(|r| r.channel);
@@ -150,9 +154,13 @@ impl Writer<'_, '_> {
         let (rough, metal) = (pick(roughness), pick(metallic));
         let all = rough.is_some() == roughness.is_some() && metal.is_some() == metallic.is_some();
         if !all {
-            self.warn(place, "its metallic lies on it in another way than its roughness: written without the texture");
+            self.warn(
+                place,
+                "its metallic lies on it in another way than its roughness: written without the texture",
+            );
         }
-        let of = |channel: Option<(&Texture, usize)>, x, y| channel.map_or(1.0, |(t, c)| t.image.texel(x, y)[c]);
+        let of =
+            |channel: Option<(&Texture, usize)>, x, y| channel.map_or(1.0, |(t, c)| t.image.texel(x, y)[c]);
         let texel = |x, y| {
             let r = of(rough, x, y);
             [1.0, if rooted { r.max(0.0).sqrt() } else { r }, of(metal, x, y), 1.0]

@@ -8,6 +8,9 @@ use super::Writer;
 use super::texture::Part;
 use super::xml::Element;
 
+/// Mitsuba dims light that grazes a bent surface unless this is false.
+const GRAZING: &str = "use_shadowing_function";
+
 /// With which of its textures a material is written.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Dress {
@@ -89,13 +92,15 @@ impl Writer<'_, '_> {
             let texture = self.job.texture(map.texture);
             let file = self.picture(&texture.image, Part::Numbers, Rgb::WHITE)?;
             let map = self.bitmap("normalmap", texture, &file);
-            bsdf = Element::plugin("bsdf", "normalmap").add(map).add(bsdf);
+            let wrap = Element::plugin("bsdf", "normalmap").boolean(GRAZING, false);
+            bsdf = wrap.add(map).add(bsdf);
         }
         if let Some(map) = m.bump {
             let texture = self.job.texture(map.texture);
             let file = self.picture(&texture.image, Part::One(0), Rgb::WHITE)?;
             let heights = self.bitmap("", texture, &file);
-            bsdf = Element::plugin("bsdf", "bumpmap").add(heights).float("scale", map.scale).add(bsdf);
+            let wrap = Element::plugin("bsdf", "bumpmap").boolean(GRAZING, false);
+            bsdf = wrap.add(heights).float("scale", map.scale).add(bsdf);
         }
         Ok(bsdf)
     }
@@ -104,11 +109,13 @@ impl Writer<'_, '_> {
     fn plain(&mut self, m: &Material, dress: Dress) -> Result<Element, String> {
         let place = format!("material \"{}\"", m.name);
         let new = |kind: &str| Element::plugin("bsdf", kind);
-        let gloss = m.gloss.filter(|_| dress != Dress::Plain);
         Ok(match m.surface {
             Surface::Diffuse { albedo } => new("diffuse").add(self.color("reflectance", albedo, m, dress)?),
             Surface::Unlit { color } => {
-                self.warn(place, "shows its colour whatever the light: Mitsuba has no such look, written as diffuse");
+                self.warn(
+                    place,
+                    "shows its colour whatever the light: Mitsuba has no such look, written as diffuse",
+                );
                 new("diffuse").add(self.color("reflectance", color, m, dress)?)
             }
             Surface::Mirror { reflectance } => {
@@ -131,7 +138,10 @@ impl Writer<'_, '_> {
                 self.glass(ior(new("thindielectric"), d.eta()), m, d.transmittance, d.reflectance, dress)?
             }
             Surface::RoughThinDielectric(d) => {
-                self.warn(place, "is a pane of ground glass, which Mitsuba does not have: written as a clear one");
+                self.warn(
+                    place,
+                    "is a pane of ground glass, which Mitsuba does not have: written as a clear one",
+                );
                 self.glass(ior(new("thindielectric"), d.eta()), m, d.transmittance, d.reflectance, dress)?
             }
             Surface::RoughDielectric(d) => {
@@ -139,35 +149,53 @@ impl Writer<'_, '_> {
                 let glass = self.glass(glass, m, d.transmittance, d.reflectance, dress)?;
                 self.rough(glass, m, d.facets(), dress)?
             }
-            Surface::Plastic { albedo, coat, gloss: factor } => {
-                let bsdf = ior(new("plastic"), coat.eta()).boolean("nonlinear", coat.is_nonlinear());
-                let bsdf = bsdf.add(self.color("diffuse_reflectance", albedo, m, dress)?);
-                bsdf.add(self.paint("specular_reflectance", factor, gloss)?)
-            }
-            Surface::RoughPlastic { albedo, coat, gloss: factor } => {
-                let bsdf = ior(new("roughplastic"), coat.eta()).boolean("nonlinear", coat.is_nonlinear());
-                let bsdf = bsdf.add(self.color("diffuse_reflectance", albedo, m, dress)?);
-                let bsdf = bsdf.add(self.paint("specular_reflectance", factor, gloss)?);
-                self.one_width(bsdf, m, coat.facets())
-            }
-            Surface::MetallicRoughness { base, metallic, roughness, f0 } => {
-                self.warn(place, "is metallic-roughness: written as principled, whose diffuse part differs a little");
-                let bsdf = new("principled").add(self.color("base_color", base, m, dress)?);
-                let textured = dress != Dress::Plain;
-                let metal = m.metallic.filter(|_| textured).map(|c| (c.texture, Part::One(c.component)));
-                let rough = m.roughness.as_ref().filter(|_| textured);
-                let rough = rough.map(|r| (r.channel.texture, Part::One(r.channel.component)));
-                let bsdf = bsdf.add(self.measure("metallic", metallic, metal)?);
-                let bsdf = bsdf.add(self.measure("roughness", roughness, rough)?);
-                // Straight on, 0.08 is Mitsuba's largest.
-                let specular = f0 / 0.08;
-                if specular <= 1.0 {
-                    bsdf.float("specular", specular)
-                } else {
-                    bsdf.float("eta", (1.0 + f0.sqrt()) / (1.0 - f0.sqrt()))
-                }
-            }
+            Surface::Plastic { .. } | Surface::RoughPlastic { .. } => self.plastic(m, dress)?,
+            Surface::MetallicRoughness { .. } => self.principled(m, dress)?,
             Surface::Blend { .. } => return Err("a blend on the back of a material".into()),
+        })
+    }
+
+    /// A clear coat over a diffuse base.
+    fn plastic(&mut self, m: &Material, dress: Dress) -> Result<Element, String> {
+        let (kind, albedo, eta, nonlinear, factor) = match m.surface {
+            Surface::Plastic { albedo, coat, gloss } => {
+                ("plastic", albedo, coat.eta(), coat.is_nonlinear(), gloss)
+            }
+            Surface::RoughPlastic { albedo, coat, gloss } => {
+                ("roughplastic", albedo, coat.eta(), coat.is_nonlinear(), gloss)
+            }
+            _ => return Err("no plastic".into()),
+        };
+        let bsdf = ior(Element::plugin("bsdf", kind), eta).boolean("nonlinear", nonlinear);
+        let bsdf = bsdf.add(self.color("diffuse_reflectance", albedo, m, dress)?);
+        let gloss = m.gloss.filter(|_| dress != Dress::Plain);
+        let bsdf = bsdf.add(self.paint("specular_reflectance", factor, gloss)?);
+        Ok(match m.surface.facets() {
+            Some(facets) => self.one_width(bsdf, m, facets),
+            None => bsdf,
+        })
+    }
+
+    /// The plugin nearest to metallic-roughness.
+    fn principled(&mut self, m: &Material, dress: Dress) -> Result<Element, String> {
+        let Surface::MetallicRoughness { base, metallic, roughness, f0 } = m.surface else {
+            return Err("no metallic-roughness".into());
+        };
+        let what = "is metallic-roughness: written as principled, which is darker where rough metal is meant";
+        self.warn(format!("material \"{}\"", m.name), what);
+        let bsdf = Element::plugin("bsdf", "principled").add(self.color("base_color", base, m, dress)?);
+        let textured = dress != Dress::Plain;
+        let metal = m.metallic.filter(|_| textured).map(|c| (c.texture, Part::One(c.component)));
+        let rough = m.roughness.as_ref().filter(|_| textured);
+        let rough = rough.map(|r| (r.channel.texture, Part::One(r.channel.component)));
+        let bsdf = bsdf.add(self.measure("metallic", metallic, metal)?);
+        let bsdf = bsdf.add(self.measure("roughness", roughness, rough)?);
+        // Straight on, 0.08 is Mitsuba's largest.
+        let specular = f0 / 0.08;
+        Ok(if specular <= 1.0 {
+            bsdf.float("specular", specular)
+        } else {
+            bsdf.float("eta", (1.0 + f0.sqrt()) / (1.0 - f0.sqrt()))
         })
     }
 

@@ -34,13 +34,19 @@ impl Writer<'_, '_> {
 
     fn light(&mut self, light: &Light, place: &str) -> Result<Element, String> {
         let from = |to_light: World, irradiance: Rgb| {
-            let light = Element::plugin("emitter", "directional").place("vector", "direction", (-to_light).to_array());
+            let light = Element::plugin("emitter", "directional").place(
+                "vector",
+                "direction",
+                (-to_light).to_array(),
+            );
             light.rgb("irradiance", irradiance)
         };
         Ok(match light {
             Light::Point(l) => {
                 let at = l.position.to_array();
-                Element::plugin("emitter", "point").place("point", "position", at).rgb("intensity", l.intensity)
+                Element::plugin("emitter", "point")
+                    .place("point", "position", at)
+                    .rgb("intensity", l.intensity)
             }
             Light::Spot(l) => {
                 if l.edge != SpotEdge::Linear || l.range.is_some() {
@@ -52,12 +58,14 @@ impl Writer<'_, '_> {
                 // A beam of no width is not allowed.
                 let beam = f64::from(l.inner).to_degrees().max(1e-3);
                 let spot = Element::plugin("emitter", "spot").rgb("intensity", l.intensity);
-                let spot = spot.float("beam_width", beam).float("cutoff_angle", f64::from(l.outer).to_degrees());
+                let spot =
+                    spot.float("beam_width", beam).float("cutoff_angle", f64::from(l.outer).to_degrees());
                 spot.looking(None, eye, eye + axis, up)
             }
             Light::Directional(l) => from(l.to_light, l.irradiance),
             Light::Sun(l) => {
-                let what = "has no size in Mitsuba: it shines from one direction, its shadows have hard edges";
+                let what =
+                    "has no size in Mitsuba: it shines from one direction, its shadows have hard edges";
                 self.warn(place, what);
                 from(l.to_light, sun_irradiance(l.radiance, l.half_angle))
             }
@@ -101,7 +109,10 @@ impl Writer<'_, '_> {
             }
             [Environment { picture: Some(picture), radiance, frame }] => {
                 if picture.nearest() {
-                    self.warn("", "the texels of light from all around are patches: Mitsuba blends between them");
+                    self.warn(
+                        "",
+                        "the texels of light from all around are patches: Mitsuba blends between them",
+                    );
                 }
                 let (tint, scale) = if radiance.0 == [radiance.0[0]; 3] {
                     (Rgb::WHITE, radiance.0[0])
@@ -137,7 +148,8 @@ fn rectangle(l: &Rectangle) -> Element {
     let [corner, u, v] = [l.corner, l.u, l.v].map(|p| p.as_dvec3());
     let (u, v) = (u * 0.5, v * 0.5);
     let linear = DMat3::from_cols(u, v, u.cross(v).normalize());
-    Element::plugin("shape", "rectangle").transform("to_world", &Transform { linear, translation: corner + u + v })
+    Element::plugin("shape", "rectangle")
+        .transform("to_world", &Transform { linear, translation: corner + u + v })
 }
 
 fn turn(frame: &Frame) -> Transform {

@@ -8,8 +8,8 @@ use super::bsdf::Dress;
 use super::xml::Element;
 use crate::write::paint::{alike, has_alpha};
 
-/// Steps of a texel in which the edge of a mask is written.
-const STEPS: u32 = 4;
+/// The most texels of a picture of holes: large pictures need no steps within a texel.
+const MOST: u64 = 1 << 22;
 
 impl Writer<'_, '_> {
     /// `bsdf`, where the material's alpha stops rays.
@@ -30,7 +30,8 @@ impl Writer<'_, '_> {
         };
         let cover = cover.filter(|cover| alike(cover, on));
         if m.cover.is_some() && cover.is_none() {
-            let what = "its alpha lies on it in another way than its colour: only that of its colour is written";
+            let what =
+                "its alpha lies on it in another way than its colour: only that of its colour is written";
             self.warn(format!("material \"{}\"", m.name), what);
         }
         let opacity = match cutoff {
@@ -50,7 +51,7 @@ impl Writer<'_, '_> {
         Ok(mask(opacity, bsdf))
     }
 
-    /// A picture of holes: 0 where alpha is below the cutoff, 1 elsewhere, in steps of a part of a texel.
+    /// A picture of holes: 0 where alpha is below the cutoff, 1 elsewhere, in steps of a texel or of a part of it.
     fn cut(
         &mut self,
         m: &Material,
@@ -58,9 +59,11 @@ impl Writer<'_, '_> {
         [color, cover]: [Option<&Texture>; 2],
         cutoff: f32,
     ) -> Result<Element, String> {
-        let steps = if on.nearest { 1 } else { STEPS };
-        if steps > 1 {
-            let what = "has holes with a cutoff: written as a picture of holes, in steps of a quarter texel";
+        let texels = u64::from(on.image.width) * u64::from(on.image.height);
+        let steps =
+            [4, 2].into_iter().find(|n| !on.nearest && texels * u64::from(n * n) <= MOST).unwrap_or(1);
+        if !on.nearest {
+            let what = "has holes with a cutoff: written as a picture of holes, whose edges have small steps";
             self.warn(format!("material \"{}\"", m.name), what);
         }
         let [width, height] = [on.image.width * steps, on.image.height * steps];
@@ -69,7 +72,8 @@ impl Writer<'_, '_> {
         let (color, cover) = (color.map(straight), cover.map(straight));
         let texel = |x: u32, y: u32| {
             let uv = [(x as f32 + 0.5) / width as f32, (y as f32 + 0.5) / height as f32];
-            let alpha = color.as_ref().map_or(1.0, |t| t.at(uv)[3]) * cover.as_ref().map_or(1.0, |t| t.at(uv)[0]);
+            let alpha =
+                color.as_ref().map_or(1.0, |t| t.at(uv)[3]) * cover.as_ref().map_or(1.0, |t| t.at(uv)[0]);
             [f32::from(u8::from(m.opacity * alpha >= cutoff)); 4]
         };
         let file = self.made([width, height], true, &texel)?;

@@ -44,7 +44,7 @@ pub(super) fn write(job: &mut Job) -> Result<Vec<u8>, String> {
         pictures: HashMap::new(),
     };
     let mut scene = Element::new("scene").with("version", "3.0.0").add(writer.integrator());
-    for (i, camera) in writer.job.scene.cameras.iter().enumerate() {
+    for (i, camera) in writer.cameras().iter().enumerate() {
         let sensor = writer.sensor(camera, i == 0);
         scene = scene.add(sensor);
     }

@@ -34,6 +34,13 @@ impl Writer<'_, '_> {
         }
     }
 
+    /// The cameras of the scene, or one that sees everything.
+    pub(super) fn cameras(&self) -> Vec<Camera> {
+        let cameras = &self.job.scene.cameras;
+        let bounds = self.job.bounds().filter(|_| cameras.is_empty());
+        bounds.map_or_else(|| cameras.clone(), |[low, high]| vec![Camera::seeing(low, high)])
+    }
+
     /// A camera; `first`: with the part of the picture that the scene asks for.
     pub(super) fn sensor(&mut self, camera: &Camera, first: bool) -> Element {
         let sized = |aspect: f64| [(f64::from(HEIGHT) * aspect + 0.5) as u32, HEIGHT];
@@ -80,7 +87,8 @@ impl Writer<'_, '_> {
         let mut film = Element::plugin("film", "hdrfilm").integer("width", width).integer("height", height);
         if let Some(crop) = self.suggested("crop").filter(|_| first) {
             let names = ["crop_offset_x", "crop_offset_y", "crop_width", "crop_height"];
-            film = names.into_iter().zip(crop.split(',')).fold(film, |film, (n, x)| film.integer(n, x.trim()));
+            film =
+                names.into_iter().zip(crop.split(',')).fold(film, |film, (n, x)| film.integer(n, x.trim()));
         }
         let known = self.suggested("filter").filter(|f| ["box", "tent", "gaussian"].contains(f));
         film.add(Element::plugin("rfilter", known.unwrap_or("gaussian")))

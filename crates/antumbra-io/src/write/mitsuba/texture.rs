@@ -67,7 +67,8 @@ impl Writer<'_, '_> {
             Wrap::Mirror => Some("mirror"),
             Wrap::Clamp => Some("clamp"),
         };
-        let mut bitmap = Element::plugin("texture", "bitmap").with("name", name).string("filename", &file.name);
+        let mut bitmap =
+            Element::plugin("texture", "bitmap").with("name", name).string("filename", &file.name);
         if file.raw {
             bitmap = bitmap.boolean("raw", true);
         }
@@ -102,7 +103,10 @@ impl Writer<'_, '_> {
         };
         // Alpha is stored in eight bits beside sRGB colours too.
         let codes = matches!((&image.texels, part), (Texels::Srgb8(_) | Texels::Linear8(_), Part::One(3)))
-            || matches!((&image.texels, part), (Texels::Linear8(_), Part::Color | Part::Numbers | Part::One(_)));
+            || matches!(
+                (&image.texels, part),
+                (Texels::Linear8(_), Part::Color | Part::Numbers | Part::One(_))
+            );
         let size = [image.width, image.height];
         let name = if screen {
             self.codes(&Codes8::of(image, Meaning::Color))?

@@ -88,13 +88,7 @@ impl Element {
     }
 
     /// With a transform from the point `origin` toward `target`; `before`: a step that comes first.
-    pub(super) fn looking(
-        self,
-        before: Option<Element>,
-        origin: DVec3,
-        target: DVec3,
-        up: DVec3,
-    ) -> Element {
+    pub(super) fn looking(self, before: Option<Element>, origin: DVec3, target: DVec3, up: DVec3) -> Element {
         let lookat = Element::new("lookat")
             .with("origin", join(&origin.to_array()))
             .with("target", join(&target.to_array()))
