@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from pathlib import Path
+from typing import Any
 
 import click
 
@@ -18,8 +19,7 @@ def run(
     scene: str,
     output: str | None,
     definitions: tuple[str, ...],
-    up_axis: str | None,
-    files_from: str | None,
+    reading: dict[str, Any],
     quiet: bool,
     verbose: bool,
 ) -> int:
@@ -27,7 +27,7 @@ def run(
     path = Path(output or f"{_scene.stem(scene)}.glb")
     _check(path, scene)
     began = time.perf_counter()
-    opened = _scene.open_scene(scene, definitions, up_axis, files_from, keep=True)
+    opened = _scene.open_scene(scene, definitions, reading, keep=True)
     _scene.tell(opened, quiet)
     files, said = opened.export(str(path))
     if not quiet:

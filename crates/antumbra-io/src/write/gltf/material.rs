@@ -25,8 +25,10 @@ struct Look {
     roughness: f32,
     /// KHR_materials_ior, where it is not 1.5.
     ior: Option<f32>,
-    /// KHR_materials_specular, where it is not 1.
+    /// The factor of KHR_materials_specular, where it is not 1.
     specular: Option<f32>,
+    /// The grey colour of KHR_materials_specular, where an index of refraction would be too large.
+    gloss: Option<f32>,
     /// KHR_materials_transmission.
     through: f32,
     /// A body of glass, not a pane.
@@ -41,6 +43,7 @@ const ROUGH: Look = Look {
     roughness: 1.0,
     ior: None,
     specular: None,
+    gloss: None,
     through: 0.0,
     body: false,
     unlit: false,
@@ -156,6 +159,15 @@ impl Writer<'_, '_> {
             let look = self.nearest(&parts[0].surface, place);
             return (Look { through: weight, body, ..look }, parts[0]);
         }
+        // The share that has a gloss at all.
+        if let [Surface::Diffuse { albedo }, Surface::MetallicRoughness { base, metallic: 0.0, .. }] =
+            parts.map(|part| part.surface)
+            && albedo == base
+            && m.blend.is_none()
+        {
+            let look = self.nearest(&parts[1].surface, place);
+            return (Look { specular: Some(weight), ..look }, parts[1]);
+        }
         self.warn(place, "blends two looks: written as one, with the mean of their numbers");
         let mean = m.blend.map_or(1.0, |t| self.job.texture(t).image.mean().0[0]);
         let t = weight * mean;
@@ -188,7 +200,10 @@ impl Writer<'_, '_> {
             Surface::Diffuse { albedo } => Look { base: albedo, specular: Some(0.0), ..ROUGH },
             Surface::Unlit { color } => Look { base: color, unlit: true, ..ROUGH },
             Surface::MetallicRoughness { base, metallic, roughness, f0 } => {
-                Look { base, metallic, roughness, ior: index(f0), ..ROUGH }
+                // Beyond, the index grows without end.
+                let gloss = (f0 > 0.5).then_some(f0 / 0.04);
+                let ior = if gloss.is_some() { None } else { index(f0) };
+                Look { base, metallic, roughness, ior, gloss, ..ROUGH }
             }
             Surface::Mirror { reflectance } => {
                 said("is a perfect mirror");
@@ -263,8 +278,12 @@ fn extensions_of(look: &Look) -> Extensions {
     if let Some(ior) = look.ior {
         all.insert("KHR_materials_ior", json!({"ior": number(ior)}));
     }
-    if let Some(specular) = look.specular {
-        all.insert("KHR_materials_specular", json!({"specularFactor": number(specular)}));
+    if look.specular.is_some() || look.gloss.is_some() {
+        let mut specular = json!({"specularFactor": number(look.specular.unwrap_or(1.0))});
+        if let Some(gloss) = look.gloss {
+            specular["specularColorFactor"] = numbers([gloss; 3]);
+        }
+        all.insert("KHR_materials_specular", specular);
     }
     if look.through > 0.0 {
         all.insert(TRANSMISSION, json!({"transmissionFactor": number(look.through)}));
@@ -285,7 +304,7 @@ fn other(ior: f32) -> Option<f32> {
 
 /// The index whose reflectance straight on is `f0`: n = (1 + √f0) / (1 − √f0).
 fn index(f0: f32) -> Option<f32> {
-    let root = f0.min(0.9).sqrt();
+    let root = f0.sqrt();
     // 0.04 is 1.5 to the last digits.
     ((f0 - 0.04).abs() > 1e-7).then(|| (1.0 + root) / (1.0 - root))
 }
