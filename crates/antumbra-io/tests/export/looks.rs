@@ -6,7 +6,7 @@ use antumbra::bsdf::{Facets, Metal};
 use antumbra::light::{
     Directional, Disk, Environment, Light, Point, Rectangle, Sphere, Spot, SpotEdge, Sun, Triangle,
 };
-use antumbra::math::{DMat3, DVec3, Frame, Rgb, Transform, Vec3};
+use antumbra::math::{DMat3, DVec3, Frame, Rgb, Transform, Vec3, real};
 use antumbra::scene::{
     Alpha, BumpMap, Camera, Channel, Emission, Lens, Material, Mesh, NormalMap, Projection, Roughness,
     SceneBuilder, Surface, TextureId,
@@ -267,7 +267,7 @@ fn light_from_all_around_comes_back_from_where_it_was() {
     for i in 0..500 {
         let y = 2.0 * (i as f32 + 0.5) / 500.0 - 1.0;
         let (phi, r) = (i as f32 * 2.4, (1.0 - y * y).sqrt());
-        let d = Vec3::new(r * phi.cos(), y, r * phi.sin()).normalize();
+        let d = Vec3::new(r * real::cosf(phi), y, r * real::sinf(phi)).normalize();
         let (x, y) = (a.radiance_from(d), b.radiance_from(d));
         assert!((0..3).all(|c| (x.0[c] - y.0[c]).abs() < 0.02 * 6.0 * 0.25), "{d}: {x:?} {y:?}");
     }

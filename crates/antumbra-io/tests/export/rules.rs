@@ -91,7 +91,7 @@ fn primitive(document: &Value, bin: &[u8], p: &Value) {
     match p.get("indices") {
         Some(at) => {
             let indices = numbers(document, bin, &accessors[index(at)]);
-            assert!(indices.len() % 3 == 0 && indices.iter().all(|i| (*i as usize) < count));
+            assert!(indices.len().is_multiple_of(3) && indices.iter().all(|i| (*i as usize) < count));
         }
         None => assert_eq!(count % 3, 0),
     }
