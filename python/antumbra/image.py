@@ -154,6 +154,11 @@ def _rebuilt(parts: tuple[Any, ...], name: str, seconds: float, messages: list[M
     return Image(_core.Picture.from_parts(*parts), name=name, seconds=seconds, messages=messages)
 
 
+def save_pixels(path: str | PathLike[str], pixels: NDArray[np.float32]) -> None:
+    """Writes linear (H, W, 3) as an EXR, HDR or PNG picture, whole or not at all. Raises OSError where it cannot."""
+    _core.write_picture(fspath(path), np.ascontiguousarray(pixels, np.float32))
+
+
 def load_image(path: str | PathLike[str]) -> NDArray[np.float32]:
     """Reads an EXR, HDR or PNG picture as linear (H, W, 3) float32; of an EXR, its data window.
 

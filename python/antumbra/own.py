@@ -152,7 +152,10 @@ class _Rows:
 
 def checked(name: str, answer: ArrayLike, count: int) -> NDArray[np.float64]:
     """What a function of one's own returned, as (N, 3); AnswerError says what is wrong with it."""
-    values = np.asarray(answer)
+    try:
+        values = np.asarray(answer)
+    except (ValueError, TypeError) as problem:
+        raise AnswerError(f"{name} returned {type(answer).__name__}, no array ({problem})") from problem
     if values.dtype.kind not in "fiub":
         raise AnswerError(f"{name} returned {values.dtype}: numbers are needed")
     if values.shape == (count,):
@@ -183,17 +186,23 @@ class _Sums:
         self.metadata.pop("antumbra.bounces", None)
         self.replicate_of = core.pass_replicates([*words.items()])
         self.passes, self.lengths = len(self.replicate_of), np.bincount(self.replicate_of)
-        self.sums = np.zeros((len(self.lengths), self.shape[0] * self.shape[1], 3))
-        self.counts = np.zeros(len(self.lengths))
-        self.done = 0
+        # Of each replicate, how many passes, and their sum.
+        nothing = np.zeros((self.shape[0] * self.shape[1], 3))
+        self.sums: list[tuple[int, NDArray[np.float64]]] = [(0, nothing)] * len(self.lengths)
+
+    @property
+    def done(self) -> int:
+        """Passes that are summed."""
+        return sum(count for count, _ in self.sums)
 
     def add(self, number: int, light: NDArray[np.float64]) -> None:
-        self.sums[self.replicate_of[number]] += light
-        self.counts[self.replicate_of[number]] += 1
-        self.done += 1
+        """One pass more; Ctrl-C comes before it or after it, because one assignment counts and sums it."""
+        place = int(self.replicate_of[number])
+        count, total = self.sums[place]
+        self.sums[place] = (count + 1, total + light)
 
     def image(self, scene: str, began: float) -> Image:
-        mean = self.sums.sum(axis=0) / self.done
+        mean = np.sum([total for _, total in self.sums], axis=0) / self.done
         error = self._standard_error()
         told = {**self.metadata, "antumbra.passes": f"{self.done} of {self.passes}"}
         rays = self.done * self.shape[0] * self.shape[1]
@@ -208,11 +217,12 @@ class _Sums:
 
     def _standard_error(self) -> NDArray[np.float64] | None:
         """√(Σ w_r (m_r − m)² / ((R − 1) Σ w_r)) over the R replicates that are complete, w_r their passes."""
-        closed = self.counts == self.lengths
-        if closed.sum() < 2:
+        whole = zip(self.sums, self.lengths, strict=True)
+        closed = [(count, total / count) for (count, total), length in whole if count == length]
+        if len(closed) < 2:
             return None
-        weights = self.counts[closed, None, None]
-        means = self.sums[closed] / weights
+        weights = np.array([count for count, _ in closed], np.float64)[:, None, None]
+        means = np.array([mean for _, mean in closed])
         mean = (weights * means).sum(axis=0) / weights.sum()
         scatter = (weights * (means - mean) ** 2).sum(axis=0)
-        return np.asarray(np.sqrt(scatter / ((closed.sum() - 1) * weights.sum())), np.float64)
+        return np.asarray(np.sqrt(scatter / ((len(closed) - 1) * weights.sum())), np.float64)

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 import antumbra as am
+from antumbra import _files
 from antumbra.checks import run as asked
 from antumbra.checks.load import load
 from antumbra.lecture import exercises
@@ -95,4 +96,41 @@ def test_an_exercise_renders_its_picture(tmp_path, capsys):
     exercises.show(str(path), "pillars", estimator, viewing_rays=1)
     picture = am.load_image(tmp_path / "3_cos_light.png")
     assert picture.shape == (240, 640, 3)
-    assert "3_cos_light.png   yours on the left, mean 1.0" in capsys.readouterr().out
+    said = re.fullmatch(
+        r"3_cos_light\.png   yours on the left, mean (\S+) of the right one\n", capsys.readouterr().out
+    )
+    # Two pictures of 320 × 240 pixels and one sample each; a sample deviates by less than its mean times 2.
+    assert abs(float(said[1]) - 1) < 5 * 2 * (2 / (320 * 240)) ** 0.5
+
+
+def test_a_picture_and_the_right_one_have_noise_of_their_own(tmp_path, monkeypatch):
+    path, seeds = filled("3_cos_light.py", TOLD["3_cos_light.py"][1][0], tmp_path), []
+    render = am.Scene.render
+    monkeypatch.setattr(
+        am.Scene, "render", lambda self, **given: seeds.append(given["seed"]) or render(self, **given)
+    )
+    exercises.show(str(path), "pillars", load(str(path))[0], viewing_rays=1)
+    assert len(set(seeds)) == 2
+
+
+def test_a_disk_that_fills_up_leaves_no_half_an_exercise(antumbra, monkeypatch):
+    def full(self, content):
+        with self.open("wb") as out:
+            out.write(content[:10])
+        raise OSError(28, "No space left on device")
+
+    with monkeypatch.context() as patch:
+        # Both ways to write a file: in its place, and beside it.
+        patch.setattr(Path, "write_bytes", full)
+        patch.setattr(_files.Path, "replace", lambda self, target: full(self, b"cut"))
+        ended = antumbra("lecture", "--exercises", "-o", "mine")
+    assert ended.code == 2 and "No space left" in ended.err
+    assert [*Path("mine").iterdir()] == []
+    assert "8 exercises" in antumbra("lecture", "--exercises", "-o", "mine").out
+
+
+@pytest.mark.parametrize("given", [["noise"], ["nothing"], ["--list"]])
+def test_exercises_are_written_all_eight(antumbra, given):
+    ended = antumbra("lecture", *given, "--exercises", "-o", "mine")
+    assert ended.code == 2 and f"{given[0]} has no place beside it" in ended.err
+    assert not Path("mine").exists()

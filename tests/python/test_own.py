@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import re
+import sys
 
 import numpy as np
 import pytest
 
 import antumbra as am
+from antumbra import own
 from own_estimators import area, hemisphere, mis
 
 SIZE = (40, 30)
@@ -180,3 +182,40 @@ def test_a_picture_of_ones_own_is_saved_and_kept_like_any_other(tmp_path):
     assert (am.load_image(tmp_path / "mine.exr").shape) == (30, 40, 3)
     again = pickle.loads(pickle.dumps(image))
     assert again.hash == image.hash == image.metadata["antumbra.pixel-hash"]
+
+
+def test_ctrl_c_within_a_sum_leaves_it_out_or_counts_it():
+    words = {"size": "4x3", "viewing_rays": "8"}
+    light = np.ones((12, 3))
+
+    def pressed_after(steps):
+        """The picture of two passes, Ctrl-C after so many steps of the second sum, and whether that was within."""
+        sums, left, within = own._Sums(am.builtin("pillars")._core, words, "one"), steps, False
+        sums.add(0, light)
+
+        def trace(frame, event, _):
+            nonlocal left, within
+            if frame.f_code is not own._Sums.add.__code__:
+                return None
+            frame.f_trace_opcodes = True
+            left -= event == "opcode"
+            if left < 0:
+                within = True
+                raise KeyboardInterrupt
+            return trace
+
+        sys.settrace(trace)
+        try:
+            sums.add(1, light)
+        except KeyboardInterrupt:
+            pass
+        finally:
+            sys.settrace(None)
+        return sums.image("pillars", 0.0), within
+
+    steps, within = 0, True
+    while within:
+        image, within = pressed_after(steps)
+        assert (image.pixels == 1).all() and image.passes_done in (1, 2)
+        steps += 1
+    assert steps > 10 and image.passes_done == 2

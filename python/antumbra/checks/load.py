@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import importlib.util
 import inspect
 import sys
@@ -10,6 +11,7 @@ from pathlib import Path
 from types import FunctionType, ModuleType
 from typing import Any
 
+from antumbra.checks.run import check_options
 from antumbra.errors import SceneError
 from antumbra.own import Estimator
 
@@ -38,7 +40,24 @@ def load(path: str, name: str | None = None) -> tuple[Estimator, dict[str, Any]]
         )
         raise SceneError(what, file=path, hint=hint)
     options = {key.lower(): getattr(module, key) for key in ("KIND", "NOISE") if hasattr(module, key)}
+    try:
+        check_options(**options)
+    except Exception as problem:
+        raise failed(path, problem) from problem
     return known[chosen], options
+
+
+def guarded(path: str, function: Estimator) -> Estimator:
+    """The same function, but what it raises is a SceneError that says where in its file: all else is not its fault."""
+
+    @functools.wraps(function)
+    def asked(*given: Any) -> Any:
+        try:
+            return function(*given)
+        except (Exception, SystemExit) as problem:
+            raise failed(path, problem) from problem
+
+    return asked
 
 
 def _run(path: str) -> ModuleType:

@@ -57,13 +57,7 @@ def check(
     >>> am.check(black).passed
     False
     """
-    if kind not in KINDS:
-        raise ValueError(f'kind is "{kind}": one of {", ".join(KINDS)} is needed')
-    for question, limit in (noise or {}).items():
-        if question not in {case.name for case in KINDS[kind].cases} or not limit > 0:
-            raise ValueError(
-                f'noise: "{question}" up to {limit}: the name of a question and a number above 0 are needed'
-            )
+    check_options(kind, noise)
     began = time.perf_counter()
     asked, limits, name = KINDS[kind], noise or {}, getattr(function, "__name__", type(function).__name__)
     tests = len(asked.cases) + len(asked.scenes) * (1 + _TILES)
@@ -79,6 +73,17 @@ def check(
     if not all(row.agrees for row in rows):
         faults = [*_faults(asked, rows), *faults]
     return Report(name, rows, faults, time.perf_counter() - began)
+
+
+def check_options(kind: str = "light", noise: Mapping[str, float] | None = None) -> None:
+    """Raises ValueError if these are no `kind` and `noise` of `check`."""
+    if kind not in KINDS:
+        raise ValueError(f'kind is "{kind}": one of {", ".join(KINDS)} is needed')
+    for question, limit in (noise or {}).items():
+        if question not in {case.name for case in KINDS[kind].cases} or not limit > 0:
+            raise ValueError(
+                f'noise: "{question}" up to {limit}: the name of a question and a number above 0 are needed'
+            )
 
 
 def _rows(

@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import json as as_json
 import sys
+from contextlib import redirect_stdout
 from pathlib import Path
+
+import click
 
 from antumbra.cli import _say
 from antumbra.cli._command import Option, Verb
@@ -19,16 +22,17 @@ def run(file: str, function: str | None, seed: int, json: bool, quiet: bool, ver
     1 if not, with what is wrong.
     """
     from antumbra.checks import check
-    from antumbra.checks.load import failed, load
+    from antumbra.checks.load import guarded, load
 
     if not quiet and Path(file).is_file():
         _say.messages(file, [("note", "", "its code is run as it stands")])
-    estimator, options = load(file, function)
     show = sys.stderr.isatty() and not quiet
     try:
-        report = check(estimator, seed=seed, progress=_line if show else None, **options)
-    except (Exception, SystemExit) as problem:
-        raise failed(file, problem) from problem
+        # What the file prints is no part of the report.
+        with redirect_stdout(sys.stderr):
+            estimator, options = load(file, function)
+            asked = guarded(file, estimator)
+            report = check(asked, seed=seed, progress=_line if show else None, **options)
     finally:
         if show:
             print("\r\x1b[K", end="", file=sys.stderr, flush=True)
@@ -53,7 +57,12 @@ VERB = Verb(
     options=[
         Option("--function", metavar="NAME", group="Run", help="which function of the file"),
         Option(
-            "--seed", type=int, default=0, metavar="N", group="Run", help="another seed, other samples [0]"
+            "--seed",
+            type=click.IntRange(0, 2**32 - 1),
+            default=0,
+            metavar="N",
+            group="Run",
+            help="another seed, other samples [0]",
         ),
         Option("--json", is_flag=True, group="Run", help="the report as JSON"),
     ],

@@ -14,6 +14,7 @@ import click
 
 from antumbra.cli import _say
 from antumbra.cli._command import Option, Verb, output_option
+from antumbra.lecture.variant import LARGEST_SEED
 
 if TYPE_CHECKING:
     import rich.progress
@@ -23,8 +24,6 @@ if TYPE_CHECKING:
 
 ORDER = 2
 OURS, STOPPED = 1, 130
-# Room that a whole lecture may take.
-_ROOM = {True: 40_000_000, False: 250_000_000}
 
 
 def run(
@@ -47,13 +46,17 @@ def run(
     from antumbra.lecture.make import Lecture
 
     if exercises:
+        if figure or list_:
+            other = "--list" if list_ else figure[0]
+            raise click.UsageError(f"--exercises writes all eight of them: {other} has no place beside it")
         return _exercises(Path(output))
     if list_:
         print(_listed(catalog.chosen(figure)))
         return 0
     lecture = Lecture(Path(output), catalog.chosen(figure), quick=quick, seed=seed, single=single_file)
     try:
-        lecture.folder.check(_ROOM[quick])
+        lecture.folder.check()
+        lecture.folder.check_room(lecture.room())
     except OSError as problem:
         what = problem.strerror or str(problem)
         raise click.UsageError(f"{output} cannot be written ({what}). Nothing was rendered.") from problem
@@ -68,6 +71,8 @@ def run(
         return _stopped(lecture, output)
     except OSError as problem:
         return _unwritten(lecture, output, problem)
+    if not quiet:
+        _say.messages(output, _too_large(lecture))
     print(_ending(lecture, output, time.monotonic() - began))
     return OURS if failed.names else 0
 
@@ -116,7 +121,7 @@ VERB = Verb(
             "--seed",
             group="Sampling",
             metavar="N",
-            type=click.IntRange(0),
+            type=click.IntRange(0, LARGEST_SEED),
             default=0,
             help="another seed, another noise [0]",
         ),
@@ -160,9 +165,11 @@ class _Bar:
             self._bar.update(task, completed=share, description=words, left=f"{_about(at.left)} left")
 
     def say(self, line: str) -> None:
+        if not line:
+            return
         if self._bar:
             self._bar.console.print(line, highlight=False, markup=False, soft_wrap=True)
-        elif line:
+        else:
             print(line, file=sys.stderr, flush=True)
 
 
@@ -249,6 +256,17 @@ def _ending(lecture: Lecture, output: str, seconds: float) -> str:
     done = _results(lecture)
     page = Path(output) / "index.html"
     return f"{page}   {_say.some(len(done), 'figure')} · {_verdicts(done)} · {_say.seconds(seconds)}"
+
+
+def _too_large(lecture: Lecture) -> list[tuple[str, str, str]]:
+    """A warning if a page of one file is larger than it was to be."""
+    from antumbra.lecture.page import LARGEST
+
+    size = (lecture.folder.path / "index.html").stat().st_size
+    if not lecture.single or size <= LARGEST:
+        return []
+    what = f"{size / 1e6:.3g} MB, more than {LARGEST / 1e6:.3g}, though its pictures are as small as can be"
+    return [("warning", "index.html", what)]
 
 
 def _stopped(lecture: Lecture, output: str) -> int:

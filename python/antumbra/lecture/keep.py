@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import hashlib
 import json
+import math
 import re
 import shutil
 import tempfile
 import time
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
@@ -42,8 +43,8 @@ class Folder:
         """Nothing is made yet."""
         self.path = path
 
-    def check(self, room: int) -> None:
-        """Raises OSError if nothing can be written there, or if there are less than `room` free bytes.
+    def check(self) -> None:
+        """Raises OSError if nothing can be written there.
 
         What an ended run left is brought to its places, or cleaned away if it was not finished.
         """
@@ -51,8 +52,11 @@ class Folder:
         self.tidy()
         with tempfile.TemporaryFile(dir=self.path):
             pass
+
+    def check_room(self, room: int) -> None:
+        """Raises OSError if there are less than `room` free bytes."""
         if shutil.disk_usage(self.path).free < room:
-            raise OSError(28, f"less than {room // 1_000_000} MB are free")
+            raise OSError(28, f"less than {math.ceil(room / 1e6)} MB are free")
 
     def tidy(self) -> None:
         """Brings what is finished to its places; takes away what was left unfinished an hour ago or more."""
@@ -63,7 +67,7 @@ class Folder:
             *self.path.glob(f".*{PART}"),
             *self.path.glob(f"kept/.*{PART}"),
         ):
-            if time.time() - max(p.lstat().st_mtime for p in (left, *left.rglob("*"))) < _LEFT:
+            if _age(left) < _LEFT:
                 continue
             if left.is_dir() and not left.is_symlink():
                 shutil.rmtree(left, ignore_errors=True)
@@ -135,12 +139,9 @@ class Folder:
         if new and _NAME.fullmatch(name) and not made.is_symlink():
             before = self.kept(name, of=of)
             for file in new["files"]:
-                (self.path / file).parent.mkdir(parents=True, exist_ok=True)
                 if (made / file).is_file():
-                    (made / file).replace(self.path / file)
-            record = self.path / "kept" / f"{name}{of}.json"
-            record.parent.mkdir(exist_ok=True)
-            (made / "record.json").replace(record)
+                    _move(made / file, self.path / file)
+            _move(made / "record.json", self.path / "kept" / f"{name}{of}.json")
             for file in set(before["files"] if before else ()) - set(new["files"]):
                 (self.path / file).unlink(missing_ok=True)
         shutil.rmtree(made, ignore_errors=True)
@@ -150,6 +151,21 @@ class Folder:
         path = self.path / file
         path.parent.mkdir(parents=True, exist_ok=True)
         write_whole(path, text)
+
+
+def _age(left: Path) -> float:
+    """Seconds since something changed there; 0 of what another run moves or takes away meanwhile."""
+    try:
+        return time.time() - max(p.lstat().st_mtime for p in (left, *left.rglob("*")))
+    except FileNotFoundError:
+        return 0.0
+
+
+def _move(file: Path, place: Path) -> None:
+    """By renaming; what is gone was moved by another run, which settles the same."""
+    place.parent.mkdir(parents=True, exist_ok=True)
+    with suppress(FileNotFoundError):
+        file.replace(place)
 
 
 def _no_number(word: str) -> float:

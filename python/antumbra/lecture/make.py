@@ -24,6 +24,8 @@ from antumbra.lecture.verdict import expected, verdict
 _OPENING = Pick(0.7, 6.0)
 # Where measuring begins in the progress of a figure that renders pictures, and where drawing the page's pictures does.
 _MEASURES, _DRAWS = 0.8, 0.9
+# Bytes that a figure takes in its folder, half more than the largest of this lecture, and the page with its numbers.
+_ROOM, _PAGE = Pick(500_000, 2_000_000), 2_000_000
 # What is stated counts like so many seconds of this machine, until more are known.
 _BELIEVED = 1.0
 
@@ -82,6 +84,11 @@ class Lecture:
     def seconds(self, names: Sequence[str]) -> float:
         """How long these will take: what is stated on two cores, at the pace that finished figures had here."""
         return self._pace() * sum(self._stated(name) for name in names)
+
+    def room(self) -> int:
+        """Bytes that must be free in the folder for what is waiting, and for the page."""
+        each = _ROOM.quick if self.quick else _ROOM.full
+        return int(each * len(self.waiting()) + _PAGE + (page.LARGEST if self.single else 0))
 
     def _pace(self, stated: float = 0.0, took: float = 0.0) -> float:
         """What figures took for each second stated: those that are finished, and what is given of the one at work."""

@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from antumbra import _core
 from antumbra._words import written
+from antumbra.image import save_pixels
 from antumbra.lecture import bars, pictures
 from antumbra.lecture.counted import counted
 from antumbra.lecture.stages import Bar, Picture
-from antumbra.lecture.variant import Pick, Variant, edition
+from antumbra.lecture.variant import SEEDS, Pick, Variant, edition
 
 if TYPE_CHECKING:
     from antumbra.image import Image
@@ -23,9 +23,7 @@ if TYPE_CHECKING:
 
 Report = Callable[[float, str], object]
 
-# Replicates of one seed of the lecture get seeds of their own below this number.
-_SEEDS = 4096
-# Those of a truth begin here.
+# Seeds of the replicates of a truth begin here.
 _TRUTHS = 2048
 
 
@@ -103,8 +101,8 @@ class Run:
         return self._once[what]
 
     def seeded(self, replicate: int) -> int:
-        """The seed of a replicate, for queries that a figure makes by itself."""
-        return self.seed * _SEEDS + replicate
+        """The seed of a replicate, for queries that a figure makes by itself; `replicate` is below `SEEDS`."""
+        return self.seed * SEEDS + replicate
 
     # ---- what was rendered ----
 
@@ -227,7 +225,7 @@ class Run:
         else:
             array = np.asarray(source, np.float32)
             array = array if array.ndim == 3 else np.repeat(array[..., None], 3, 2)
-            _core.write_picture(str(self.folder / file), np.ascontiguousarray(array))
+            save_pixels(self.folder / file, array)
 
     def _put(
         self,

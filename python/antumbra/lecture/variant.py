@@ -10,6 +10,11 @@ if TYPE_CHECKING:
     from antumbra.scene import Scene
 
 
+# Replicates of one seed of a lecture get seeds of their own, so many of the 2³² that a render has.
+SEEDS = 4096
+LARGEST_SEED = (1 << 32) // SEEDS - 1
+
+
 class Pick(NamedTuple):
     """A value that depends on how long the lecture may take."""
 

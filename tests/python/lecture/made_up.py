@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from antumbra.lecture import keep
 from antumbra.lecture.figure import Claim, Equation, Figure, Number, Pick, Question, Variant
 from antumbra.lecture.measures.replicates import mean_of
 from antumbra.lecture.scenes import builtin
@@ -21,6 +22,13 @@ from antumbra.lecture.stages import (
     Table,
     Tabs,
 )
+
+# What stands in every record of a figure.
+RECORD = {
+    "form": keep.FORM, "name": "one", "key": "0", "antumbra": "0", "quick": False, "seed": 0, "seconds": 1.0, "rays": 0,
+    "files": [], "stage": [], "number": 1, "chapter": 1, "title": "", "question": {}, "answer": {}, "equation": {},
+    "claims": [], "numbers": {}, "command": "", "exr": [],
+}  # fmt: skip
 
 LOOK = {"estimator": "area", "viewing_rays": Pick(1, 2), "size": (24, 16)}
 

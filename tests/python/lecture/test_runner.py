@@ -11,6 +11,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from made_up import RECORD
 
 from antumbra import _made_by
 from antumbra.lecture import catalog, keep, make
@@ -129,7 +130,7 @@ def test_too_little_room_is_told_before(two_figures, antumbra, monkeypatch):
     monkeypatch.setattr(keep.shutil, "disk_usage", lambda path: usage(path)._replace(free=1000))
     ended = antumbra("lecture", "--quick", "-o", "out")
     assert ended.code == 2
-    assert ended.err == "error: out cannot be written (less than 40 MB are free). Nothing was rendered.\n"
+    assert ended.err == "error: out cannot be written (less than 4 MB are free). Nothing was rendered.\n"
 
 
 def test_an_unknown_figure_suggests_the_nearest(antumbra, tmp_path):
@@ -287,14 +288,6 @@ def test_what_older_code_made_is_marked_until_it_is_made_anew(two_figures, antum
     again = antumbra("lecture", "--quick", "-o", "out")
     assert "1 made by older code, to be replaced" in again.err.splitlines()[0]
     assert "Made by older code" not in (tmp_path / "out/index.html").read_text()
-
-
-# What stands in every record of a figure.
-RECORD = {
-    "form": keep.FORM, "name": "one", "key": "0", "antumbra": "0", "quick": False, "seed": 0, "seconds": 1.0, "rays": 0,
-    "files": [], "stage": [], "number": 1, "chapter": 1, "title": "", "question": {}, "answer": {}, "equation": {},
-    "claims": [], "numbers": {}, "command": "", "exr": [],
-}  # fmt: skip
 
 
 def drawn(svg):
