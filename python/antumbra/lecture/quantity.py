@@ -54,8 +54,8 @@ class Quantity:
             return written(value), ""
         # A value far below its own error needs no more digits than the error has.
         places = digits - 1 - math.floor(math.log10(float(f"{error:.{digits - 1}e}")))
-        value, error = (f"{round(x, places):,.{max(places, 0)}f}" for x in (value, error))
-        return minus(value), error
+        shown, spread = (f"{round(x, places):,.{max(places, 0)}f}" for x in (value, error))
+        return minus(shown), spread
 
     def __format__(self, spec: str) -> str:
         """`value ± error unit`; spec "1", "2": digits of the error, "v": the value alone, "r": with both ends."""
