@@ -2,39 +2,24 @@
 
 from __future__ import annotations
 
-import time
-from collections.abc import Sequence
-from typing import NamedTuple
+from collections.abc import Callable, Sequence
+from functools import partial
+from typing import Any
 
 import numpy as np
 
 from antumbra.hit import Receivers
-from antumbra.lecture.measures.replicates import median_of
+from antumbra.lecture.measures.alone_and_together import Asked, in_turn, rays_of, starts
+from antumbra.lecture.measures.ratio import ratio
 from antumbra.lecture.quantity import Quantity
 from antumbra.lecture.run import Run
 from antumbra.occlusion import Occlusion
 from antumbra.scene import Scene
 
-METHODS = ("rays", "occluders", "receivers")
-# Of each method in turn, to know its rate.
-_CALLS = 7
+# Rays alone and as they come; triangles to all points of a tile; points through the tree.
+WAYS = ("single", "packets", "occluders", "receivers")
 # Corners of the middle of the picture are asked about: as many points a side as this.
 _TILE = 8
-
-
-class Asked(NamedTuple):
-    """One kind of question about a scene, by each method."""
-
-    differ: int
-    """Bits that differ between methods, of all pairs of them with rays."""
-    bits: int
-    """Bits that were compared."""
-    work: Occlusion
-    """What "receivers" found."""
-    rates: dict[str, Quantity]
-    """Directions a second, by method [million]."""
-    faster: dict[str, Quantity]
-    """Directions a second over those of rays."""
 
 
 def seen(run: Run, scene: Scene, size: tuple[int, int]) -> Receivers:
@@ -49,41 +34,45 @@ def seen(run: Run, scene: Scene, size: tuple[int, int]) -> Receivers:
     return hit.receivers[np.isfinite(hit.t)]
 
 
-def asked(scene: Scene, receivers: Receivers, radius: float, count: int) -> Asked:
-    """All methods in turn: the first round for the bits, the others for the rates."""
-    found: dict[str, Occlusion] = {}
-    seconds = np.empty((_CALLS, len(METHODS)))
-    for turn in range(-1, _CALLS):
-        for k, method in enumerate(METHODS):
-            began = time.perf_counter()
-            found[method] = scene.occlusion_masks(
-                receivers, directions=count, radius=radius, method=method, turned=True
-            )
-            seconds[turn, k] = time.perf_counter() - began
-    masks = [found[method].blocked for method in METHODS]
-    differ = sum(int(np.sum(mask != masks[0])) for mask in masks[1:])
-    note = f"median of {_CALLS} calls on all cores, the methods in turn"
-    rates = {m: median_of(masks[0].size / seconds[:, k] / 1e6, "M/s", note) for k, m in enumerate(METHODS)}
-    faster = {m: median_of(seconds[:, 0] / seconds[:, k], "", note) for k, m in enumerate(METHODS)}
-    return Asked(differ, 2 * masks[0].size, found["receivers"], rates, faster)
+def asked(
+    run: Run, scene: Scene, receivers: Receivers, radius: float, count: int
+) -> tuple[dict[str, Quantity], int, int]:
+    """`in_range`, `tested`, the rate of each of `WAYS`, and `times-…`: those of both methods over that of packets. And
+    how many bits differ from those of packets, of how many.
+    """
+    points, normals = receivers.positions, receivers.normals
+
+    def masks(method: str, last: int | None = None) -> Occlusion:
+        return scene.occlusion_masks(
+            points[:last], normals[:last], directions=count, radius=radius, method=method, turned=True
+        )
+
+    origins, along, reach = rays_of(masks("receivers"), starts(points, normals))
+    rays = Asked(run, scene, origins, directions=along, max_distance=reach)
+    ways: dict[str, Callable[[], Any]] = {"single": rays.single, "packets": rays.together}
+    ways |= {method: partial(masks, method) for method in WAYS[2:]}
+    found, rates = in_turn(ways, len(origins), partial(masks, "receivers", 1))
+    right = found["packets"]
+    others = [rays.back(found["single"]), *(found[method].blocked.ravel() for method in WAYS[2:])]
+    differ, work = sum(int(np.sum(bits != right)) for bits in others), found["receivers"].work
+    said = {
+        "in_range": Quantity(work.in_range / len(receivers)),
+        "tested": Quantity(work.tested / max(work.in_range, 1)),
+    }
+    over = {f"times-{method}": ratio(rates[method], rates["packets"]) for method in WAYS[2:]}
+    return said | rates | over, differ, len(others) * right.size
 
 
 def together(
     run: Run, scene: Scene, name: str, size: tuple[int, int], radii: Sequence[float], counts: Sequence[int]
 ) -> tuple[dict[str, Quantity], int, int]:
-    """By radius and number of directions, named `name-radius-count`: triangles `in_range` of a point, `tested`
-    directions of such a pair, `rays`, `occluders`, `receivers`: rates, `faster`: the better method over rays. And how
-    many bits differ, of how many.
-    """
-    found, differ, bits = {}, 0, 0
+    """What `asked` finds, by radius and number of directions, named `name-radius-count-…`; bits that differ, of all."""
+    found: dict[str, Quantity] = {}
+    differ = bits = 0
     receivers = seen(run, scene, size)
     for radius in radii:
         for count in counts:
-            one = asked(scene, receivers, radius, count)
-            key, work = f"{name}-{radius:g}-{count}", one.work.work
-            found[f"{key}-in_range"] = Quantity(work.in_range / len(receivers))
-            found[f"{key}-tested"] = Quantity(work.tested / max(work.in_range, 1))
-            found |= {f"{key}-{method}": rate for method, rate in one.rates.items()}
-            found[f"{key}-faster"] = max((one.faster[m] for m in METHODS[1:]), key=lambda q: q.value)
-            differ, bits = differ + one.differ, bits + one.bits
+            one, different, compared = asked(run, scene, receivers, radius, count)
+            found |= {f"{name}-{radius:g}-{count}-{what}": q for what, q in one.items()}
+            differ, bits = differ + different, bits + compared
     return found, differ, bits

@@ -1,4 +1,4 @@
-"""Triangles over a point and the directions that they take, one after another; the table of rates."""
+"""Triangles over a point and the directions that they take, one after another; the tables of rates."""
 
 from __future__ import annotations
 
@@ -9,6 +9,8 @@ from numpy.typing import NDArray
 
 from antumbra._words import written
 from antumbra.lecture.fisheye import Fisheye
+from antumbra.lecture.measures.alone_and_together import COUNTS as LIGHT_POINTS
+from antumbra.lecture.measures.fast_occlusion import WAYS
 from antumbra.lecture.quantity import Quantity
 from antumbra.lecture.run import Run
 from antumbra.lecture.scenes.shards import shards, some_shards
@@ -65,23 +67,42 @@ def one_more(run: Run, k: int, pixels: int) -> Frame:
     return Frame(str(k), says, pictures, short=str(k))
 
 
-def table_of_rates(
-    found: Mapping[str, Quantity], rows: Sequence[tuple[str, float]], counts: Sequence[int], note: str
-) -> Table:
-    """A line for each scene and radius: triangles in range, tests, rates of rays, and the better method over rays."""
+def _scene(name: str, radius: float) -> str:
+    return f"{name}, R = {radius:g}"
+
+
+def by_radius(found: Mapping[str, Quantity], rows: Sequence[tuple[str, float]], note: str) -> Table:
+    """A line for each scene and radius: triangles in range, tests, and the rate of each way at N = 256."""
     lines = []
     for name, radius in rows:
-        key = f"{name}-{radius:g}"
-        middle = f"{key}-{COUNT}"
-        rate = written(found[f"{middle}-rays"].value, 2)
-        faster = [written(found[f"{key}-{n}-faster"].value, 2) for n in counts]
-        in_range, tested = (written(found[f"{middle}-{what}"].value, 2) for what in ("in_range", "tested"))
-        lines.append([f"{name}, R = {radius:g}", in_range, tested, rate, *faster])
-    head = ("scene", "triangles in range", "tests each", "M rays/s", *(f"× at N = {n}" for n in counts))
-    return Table(
-        head,
-        lines,
-        "Both methods beside rays: directions a second over rays a second",
-        fine=(2, 3),
-        note=note,
-    )
+        of = [f"{name}-{radius:g}-{COUNT}-{what}" for what in ("in_range", "tested", *WAYS)]
+        lines.append([_scene(name, radius), *(written(found[key].value, 2) for key in of)])
+    head = ("N = 256", "in range", "tests", "single", "packets", "tiles", "points")
+    return Table(head, lines, "Directions by all four ways, by radius [M/s]", fine=(2,), note=note)
+
+
+def by_count(
+    found: Mapping[str, Quantity], rows: Sequence[tuple[str, float]], counts: Sequence[int], note: str
+) -> Table:
+    """A line for each scene and radius: both methods over packets, at each number of directions."""
+    lines = [
+        [_scene(name, radius), *(
+            written(found[f"{name}-{radius:g}-{n}-times-{method}"].value, 2) for method in WAYS[2:] for n in counts
+        )]
+        for name, radius in rows
+    ]  # fmt: skip
+    head = ("× packets", *(f"{word} {n}" for word in ("tiles", "points") for n in counts))
+    return Table(head, lines, "Both methods over rays in packets, by N", note=note)
+
+
+def of_light(found: Mapping[str, Quantity], names: Sequence[str], note: str) -> Table:
+    """A line for each scene: points of a light asked singly and together, at each number of points."""
+    lines = [
+        [name, *(
+            " → ".join(written(found[f"{name}-light-{n}-{way}"].value, 2) for way in ("single", "together"))
+            for n in LIGHT_POINTS
+        )]
+        for name in names
+    ]  # fmt: skip
+    head = ("M rays/s", *(f"N = {n}" for n in LIGHT_POINTS))
+    return Table(head, lines, "Points of a light asked singly and together", note=note)
