@@ -73,7 +73,7 @@ FIGURE = Figure(
     equation=Equation([SEGMENT], "Marked: t ends at 1, the light. Without that end, all of the line behind the light counts too."),
     claims=[
         Claim("Tangents through all points of the light say how wide the false shadow is.", "width", near=WIDTH, within=0.002, main=True,
-              measured="{width}; they say " + f"{WIDTH:.4f} m, for the light's centre alone {-HANGS * TANGENT:.3f} m: a light of some size makes it wider"),
+              measured="{width}; through its centre alone " + f"{-HANGS * TANGENT:.3f} m"),
         Claim("Without it, the cylinder gets no light below.", "dark", near=0.0, within=0.001, measured="{dark} of its light, straight above the light"),
         Claim("With the test, the plane gets all light there is.", "under", near=0.0, within=0.01,
               measured="{under} off from π L (r/d)² under the light"),

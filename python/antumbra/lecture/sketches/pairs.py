@@ -59,14 +59,11 @@ def linked(run: Run, way: str, says: str) -> Linked:
     rows = [[names[n], "free" if of.free[n] else "blocked", f"{of.brings[n]:.3f}"] for n in order]
     table = Table(
         ("pair", "V", "brings"), rows, f"{SET} samples of the pixel, {says}",
-        note="What one sample says of the pixel [W·m⁻²·sr⁻¹]. Point at a row or at a dot.",
+        note="What one sample says of the pixel [W·m⁻²·sr⁻¹]. Point at a row or at a dot. "
+        "Of 16 such sets the one whose number of pairs is nearest to the mean.",
     )  # fmt: skip
     alt = f"{SET} samples, {says}: {of.different} of 16 pairs of quarters of pixel and light."
-    key = (
-        "Left: one pixel of a picture of 32 × 22, enlarged. Right: the light, bright where the pixel sees it. "
-        f"{SET} viewing rays, each with its point on the light: green dot free, orange cross blocked. "
-        "Of 16 such sets the one whose number of pairs is nearest to the mean."
-    )
+    key = "Left: one pixel. Right: the light, bright where the pixel sees it; green dot: free, orange cross: blocked."
     picture = run.picture(_shown(run), alt, name=f"pixel-{way}", white=1.0)
     return Linked(f"sample-{way}", picture, sketch.done(alt), table, key)
 

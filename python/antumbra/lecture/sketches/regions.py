@@ -16,7 +16,7 @@ from antumbra.lecture.stages.regions import side_view
 def receiver_moved(run: Run, disks: Disks, distances: Sequence[float], width: float) -> Strip:
     """Side view, map and picture of the receiver at each distance g behind the occluder: variants `g{g}`."""
     label = "Receiver, distance g behind the occluder"
-    labels = ("Side view", "Region of every pixel", "Picture of the receiver")
+    labels = ("Side view", "Regions", "Picture")
     return Strip("g", label, [_frame(run, disks, g, width) for g in distances], labels,
                  tells=distances.index(disks.length))  # fmt: skip
 
