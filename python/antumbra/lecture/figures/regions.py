@@ -52,8 +52,7 @@ FIGURE = Figure(
     ),
     variants=[Variant(f"g{g}", receiver_behind(DISKS, g), LOOK | from_above(0.98 * g, HALF)) for g in DISTANCES],
     measure=_measure, stage=_stage, exr=["g6.0"],
-    answer=Number("closes", "The umbra closes at g = a·r/(R − r) = 4. From farther on the occluder looks smaller than the light, and a ring of "
-        "the light is seen around it. That is the antumbra."),
+    answer=Number("closes", "The umbra closes at g = a·r/(R − r) = 4. Farther on a ring of the light is seen around the occluder: the antumbra."),
     equation=Equation(
         [DIRECT, (r"u(\mark{g}) = r - (R - r) \frac{\mark{g}}{a} = 0 \quad \Longrightarrow \quad g = \frac{a \, r}{R - r}",
                   "u(g) = r − (R − r) g / a = 0, so g = a r / (R − r)")],

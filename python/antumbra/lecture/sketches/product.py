@@ -21,7 +21,7 @@ def seen_times_unshadowed(run: Run, radii: Sequence[float], tells: float, x: flo
     `tells`: the radius that the numbers are of; `x`: the point of the floor that they are of, ringed [m].
     """
     label = "Radius R of the light, 2 m above the floor; the occluder, of radius 0.2 m, hangs halfway"
-    labels = ("V, seen", "E, unshaded", "V · E", "true", "true / V·E − 1")
+    labels = ("V", "E", "V · E", "true", "true / VE")
     note = (
         "In V · E and in the true picture white is the brightest unshadowed light. "
         f"The ring: x = {x:g} m, to the right of the middle; each picture is {WIDTH:g} m wide. "
