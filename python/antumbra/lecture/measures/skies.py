@@ -99,6 +99,7 @@ def _variance(estimates: NDArray[np.float64], n: int) -> NDArray[np.float64]:
 def met_sun(run: Run) -> dict[str, Quantity]:
     """`rare`: directions of density cos θ/π until one meets the midday sun; `worth`: how many of them one of the map's
     has the variance of, sky and sun together. `disc`: the first by the closed form 1 / (sin² α cos θ). In thousands.
+    `hits`, `expected`: of the sun, and by that form; `off`: their difference in standard errors, √`expected`.
     """
     n, sky = run.pick(_DIRECTIONS), lights_of("midday")
     by_brdf = _asked(run, 1, n, sky, estimator="hemisphere", directions="cosine")
@@ -111,17 +112,25 @@ def met_sun(run: Run) -> dict[str, Quantity]:
     rare = of_interval(statistics.Interval(once, once / (1 + spread), once * (1 + spread)), "thousand")
     closed = Quantity(1e-3 / (math.sin(_SUN) ** 2 * math.sin(SUNS["midday"].elevation)), unit="thousand")
     worth = ratio(mean_of(_variance(by_brdf, n) / 1000), mean_of(_variance(by_map, 16)), "thousand")
-    return {"rare": rare, "disc": closed, "agree": ratio(rare, closed), "worth": worth}
+    # Rare hits scatter by the root of their number.
+    expected = tried / (1000 * closed.value)
+    off = Quantity((hits - expected) / math.sqrt(expected))
+    said = {"hits": Quantity(hits), "expected": Quantity(expected), "off": off}
+    return said | {"rare": rare, "disc": closed, "worth": worth}
 
 
 def surfaces(run: Run) -> list[str]:
-    """Hashes of what is seen under the skies: of position, normal, albedo and depth, bit by bit; one if all agree."""
+    """Hashes of the scene without its lights, one if it is the same under all skies, bit by bit.
+
+    Of its triangles, and of position, normal, albedo and depth of what each sky's pictures show.
+    """
     layers = ("position", "normal", "albedo", "depth")
+    triangles = run.scene(under_skies).triangles()
 
     def seen_under(sky: str) -> str:
         found = hashlib.sha256()
-        for name in layers:
-            found.update(np.ascontiguousarray(run.aov(f"mis-{sky}", name)).tobytes())
+        for part in (*triangles, *(run.aov(f"mis-{sky}", name) for name in layers)):
+            found.update(np.ascontiguousarray(part).tobytes())
         return found.hexdigest()[:16]
 
     return sorted({seen_under(sky) for sky in SKIES})
