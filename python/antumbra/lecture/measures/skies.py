@@ -114,9 +114,8 @@ def met_sun(run: Run) -> dict[str, Quantity]:
     worth = ratio(mean_of(_variance(by_brdf, n) / 1000), mean_of(_variance(by_map, 16)), "thousand")
     # Rare hits scatter by the root of their number.
     expected = tried / (1000 * closed.value)
-    off = Quantity((hits - expected) / math.sqrt(expected))
-    said = {"hits": Quantity(hits), "expected": Quantity(expected), "off": off}
-    return said | {"rare": rare, "disc": closed, "worth": worth}
+    said = {"hits": hits, "expected": expected, "off": (hits - expected) / math.sqrt(expected)}
+    return {"rare": rare, "disc": closed, "worth": worth} | {key: Quantity(n) for key, n in said.items()}
 
 
 def surfaces(run: Run) -> list[str]:
