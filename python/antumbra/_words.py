@@ -71,7 +71,12 @@ def minus(text: str) -> str:
 
 def power_of_ten(power: int) -> str:
     """`10⁻⁷`."""
-    return "10" + str(power).translate(_RAISED)
+    return "10" + raised(power)
+
+
+def raised(power: int) -> str:
+    """`⁻⁷`."""
+    return str(power).translate(_RAISED)
 
 
 def written(x: float, digits: int = 3) -> str:

@@ -34,7 +34,7 @@ FIGURE = Figure(
                       ("about 50", "about 500", "more than 5,000"), 2, ("fewer",)),
     variants=[
         Variant("truth", two_windows(), TRUTH, 4, truth=True),
-        *(Variant(f"{key}-{n}", two_windows(), LOOK | way.of(n), Pick(4, 6)) for key, way in WAYS.items() for n in COUNTS),
+        *(Variant(f"{key}-{n}", two_windows(), LOOK | way.of(n), 6) for key, way in WAYS.items() for n in COUNTS),
     ],
     measure=of_ways, stage=_stage, exr=["truth", "best-64"],
     answer=Number("fewer", "Points of the lights instead of directions, each light by itself, and well spread. By time it is {second-best:v} in this run.", before="÷ "),

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
+from antumbra._words import raised
 from antumbra.lecture.measures.bounces import light_of
 from antumbra.lecture.measures.ends import End, rmse
 from antumbra.lecture.quantity import Quantity
@@ -21,7 +22,9 @@ _TICKS = {-2.5: "0.3 %", -2: "1 %", -1: "10 %", 0: "100 %"}
 def bounce(run: Run, found: Mapping[str, Quantity], k: int, white: float) -> Frame:
     """The light of exactly k reflections beside that of up to k."""
     what = "emitted light" if k == 0 else "direct light" if k == 1 else f"light after {k} reflections"
-    says = f"k = {k}: {what}, {found[f'share-{k}']:1} of all" if k else "k = 0: the lamp alone"
+    # Its term of the sum.
+    term = "Lₑ" if k == 0 else "T Lₑ" if k == 1 else f"T{raised(k)} Lₑ"
+    says = f"{term}, k = {k}: {what}, {found[f'share-{k}']:1} of all" if k else "Lₑ, k = 0: the lamp alone"
     alone, up_to = f"Only {what}.", f"All light of up to {k} reflections."
     pictures = [
         run.picture(light_of(run, k), alone, name=f"only-{k}", white=white, colour=True),

@@ -54,9 +54,9 @@ def sorted_tables(run: Run, found: Mapping[str, Quantity]) -> Plot:
     }
     scatter = max(q.error / q.value for name, q in found.items() if name.startswith("time-"))
     note = (
-        f"{SAMPLES} samples a pixel: rays that are traced (none where a direction meets no light), time, RMSE over the "
-        "mean; 1/RMSE² per sample and per second, the first technique being 1. Times are medians that scatter by up to "
-        f"{scatter:.0%} in this run. Beside each picture its RMSE, brightest from {_HIGH:.0%} of white."
+        f"{SAMPLES} samples a pixel: rays that are traced (none where a direction meets no light), time, scatter over "
+        "the mean; 1/scatter² per sample and per second, the first technique being 1. Times are medians, sure to "
+        f"{100 * scatter:.0f} % in this run. Beside each picture its RMSE, brightest from {_HIGH:.0%} of white."
     )
 
     def table(of: Callable[[str], float]) -> Table:
@@ -80,7 +80,7 @@ def _curves(run: Run) -> str:
     unit = float(errors.squares[FIRST][:, 0].mean())
     curves = [measured(WAYS[way].name, COUNTS, 1e4 * errors.squares[way] / unit) for way in _DRAWN]
     return error_curves(
-        curves, x_title="samples of a pixel", y_title="RMSE, of 4 directions 100", chosen=WAYS[BEST].name,
+        curves, x_title="samples of a pixel", y_title="RMSE, 4 directions = 100", chosen=WAYS[BEST].name,
         x_ticks=COUNTS, y_ticks=[100, 10, 1],
         label="RMSE against the number of samples: each light asked with owen points is best.",
     )  # fmt: skip
