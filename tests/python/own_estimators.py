@@ -184,6 +184,8 @@ WRONG = {
     "cosine twice": (spoiled(lambda s, cos: cos), "cos θ at the receiver comes twice"),
     "no cosine at the light": (spoiled(lambda s, cos: 1 / s.cos_light), "cos θ′ at the light is missing"),
     "no distance": (spoiled(lambda s, cos: s.distance**2), "1/r² is missing"),
+    "distance not squared": (spoiled(lambda s, cos: s.distance), "1/r stands where 1/r² should"),
+    "distance cubed": (spoiled(lambda s, cos: 1 / s.distance), "1/r³ stands where 1/r² should"),
     "area measure": (spoiled(lambda s, cos: s.distance**2 / s.cos_light), "cos θ′/r² is missing"),
     "solid angle measure": (spoiled(lambda s, cos: s.cos_light / s.distance**2), "cos θ′/r² comes twice"),
     "counted twice": (both_in_full, "counts twice"),

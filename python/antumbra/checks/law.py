@@ -38,7 +38,7 @@ def followed(lamps: Sequence[Lamp], shares: Sequence[float], errors: Sequence[fl
     right = np.array([falls_as(lamp, 1, 1, 2) for lamp in lamps])
     share = np.asarray(shares)
     best: tuple[float, Law] | None = None
-    for a, b, c in itertools.product(range(5), (0, 1, 2), (0, 2, 4)):
+    for a, b, c in itertools.product(range(5), range(3), range(5)):
         law = np.array([falls_as(lamp, a, b, c) for lamp in lamps]) / right
         error = np.hypot(np.asarray(errors), _SUM * np.maximum(share, law))
         weight = law**2 / error**2
@@ -73,6 +73,8 @@ _TERMS = {
     (1, 0): "cos θ′ at the light is missing",
     (1, 2): "cos θ′ at the light comes twice",
     (2, 0): "1/r² is missing",
+    (2, 1): "1/r stands where 1/r² should",
+    (2, 3): "1/r³ stands where 1/r² should",
     (2, 4): "1/r² comes twice",
 }
 _JOINED = [
