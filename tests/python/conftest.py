@@ -18,6 +18,8 @@ def antumbra(tmp_path, monkeypatch, capsys):
     from antumbra.cli._run import run
 
     monkeypatch.chdir(tmp_path)
+    # Whoever runs the tests may say how wide its lines are; nobody reads these.
+    monkeypatch.delenv("COLUMNS", raising=False)
 
     def ran(*arguments: str) -> Ended:
         code = run([str(a) for a in arguments])
