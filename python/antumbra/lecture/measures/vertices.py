@@ -27,7 +27,7 @@ CELLS = {"empty": SMOOTH_CELLS, "body": BODY_CELLS, "along": CUT_CELLS}
 # RMS errors of one cell and of 2 × 2 on the floor of a cube (quadrature of the closed form).
 CUBE = {1: 0.06542137235235, 2: 0.01603618598543}
 # Places of the body, rays of a vertex and of a point, points along the edge of the floor.
-PLACES, _RAYS, _SIDE = Pick(24, 32), Pick(128, 256), Pick(32, 64)
+PLACES, _RAYS, _SIDE = Pick(14, 32), Pick(128, 256), Pick(32, 64)
 # Where its corner may be: a whole number of cells of each mesh, so that its edges cross cells anywhere alike.
 _NEAREST, _PERIOD = 0.25, 0.25
 _SURE = Pick(1 << 14, 1 << 16)
