@@ -106,8 +106,8 @@ def noise_plot(run: Run, found: Mapping[str, Quantity], white: float) -> str:
     return error_curves(
         curves, x_title="shadow rays of each viewing ray, N", y_title=f"error over white, {RAYS} rays",
         chosen="penumbra", x_ticks=[1, 4, 19, 49, 199], y_ticks=[0.2, 0.1, 0.05, 0.02, 0.01],
-        label="Error against shadow rays for each viewing ray: at the edge it grows, and is largest for the one ray "
-        "through the centre; in the penumbra it first falls.",
+        label="Error against shadow rays for each viewing ray: at the edge it grows, in the penumbra it first falls; "
+        "two marks for one viewing ray through the centre.",
     )  # fmt: skip
 
 
