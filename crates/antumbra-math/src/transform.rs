@@ -2,6 +2,8 @@
 
 use glam::{DMat3, DVec3};
 
+use crate::real;
+
 /// x ↦ M x + t, in f64.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Transform {
@@ -18,6 +20,25 @@ impl Transform {
     /// A translation.
     pub fn translation(t: DVec3) -> Transform {
         Transform { linear: DMat3::IDENTITY, translation: t }
+    }
+
+    /// A linear map.
+    pub fn linear(linear: DMat3) -> Transform {
+        Transform { linear, translation: DVec3::ZERO }
+    }
+
+    /// A rotation by `angle` [rad] about a unit `axis`, counterclockwise as seen from its tip (Rodrigues).
+    pub fn rotation(axis: DVec3, angle: f64) -> Transform {
+        let (s, c) = (real::sin(angle), real::cos(angle));
+        let turn = |v: DVec3| v * c + axis.cross(v) * s + axis * (axis.dot(v) * (1.0 - c));
+        Transform::linear(DMat3::from_cols(turn(DVec3::X), turn(DVec3::Y), turn(DVec3::Z)))
+    }
+
+    /// Takes what looks along +z from the origin, +y upwards, to `eye`: +z goes to the unit vector `forward`, +x to
+    /// up × forward. `None` if `up` lies along `forward`.
+    pub fn looking(eye: DVec3, forward: DVec3, up: DVec3) -> Option<Transform> {
+        let side = up.cross(forward).try_normalize()?;
+        Some(Transform { linear: DMat3::from_cols(side, forward.cross(side), forward), translation: eye })
     }
 
     /// From the columns of a 4×4 matrix (glTF order); the last row is taken as (0, 0, 0, 1).
@@ -80,5 +101,32 @@ impl Transform {
     /// All twelve numbers are finite.
     pub fn is_finite(&self) -> bool {
         self.linear.is_finite() && self.translation.is_finite()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Lengths and angles stay, the axis stays, and two turns are one by their sum: to a few roundings of numbers near 1.
+    #[test]
+    fn a_rotation_is_one() {
+        let axis = DVec3::new(1.0, -2.0, 0.5).normalize();
+        let (a, b) = (Transform::rotation(axis, 0.7), Transform::rotation(axis, -2.1));
+        let sum = Transform::rotation(axis, -1.4);
+        assert!(a.after(&b).linear.abs_diff_eq(sum.linear, 1e-15));
+        assert!((a.linear.transpose() * a.linear).abs_diff_eq(DMat3::IDENTITY, 1e-15) && !a.mirrors());
+        assert!(a.vector(axis).abs_diff_eq(axis, 1e-15));
+        let quarter = Transform::rotation(DVec3::Z, std::f64::consts::FRAC_PI_2);
+        assert!(quarter.vector(DVec3::X).abs_diff_eq(DVec3::Y, 1e-15));
+    }
+
+    #[test]
+    fn who_looks_sees_up_upwards() {
+        let (eye, forward, up) = (DVec3::new(1.0, 2.0, 3.0), DVec3::NEG_Z, DVec3::new(0.0, 2.0, 5.0));
+        let look = Transform::looking(eye, forward, up).map(|t| (t.linear, t.translation));
+        let linear = DMat3::from_cols(DVec3::NEG_X, DVec3::Y, DVec3::NEG_Z);
+        assert_eq!(look, Some((linear, eye)));
+        assert_eq!(Transform::looking(eye, forward, DVec3::Z), None);
     }
 }

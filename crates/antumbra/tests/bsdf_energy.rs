@@ -1,7 +1,11 @@
 //! Energy of every kind of reflection: under equal light from everywhere (the white furnace) a surface gives back
 //! ∫ f cos dω_i, never more than 1, and exactly what its model promises where that is known.
 
-use antumbra::bsdf::{Bsdf, BsdfKind, Coat, Facets, MetallicRoughness, Plastic, RoughCoat, RoughPlastic};
+use antumbra::bsdf::{
+    Bsdf, BsdfKind, Coat, CoatedConductor, Conductor, Dielectric, Facets, Metal, MetallicRoughness, Plastic,
+    RoughCoat, RoughConductor, RoughDielectric, RoughPlastic,
+};
+use antumbra::math::hash::{hash3, unit_f32};
 use antumbra::math::stats::SphereBins;
 use antumbra::math::{Local, Rgb, Vec3, real};
 
@@ -145,6 +149,59 @@ fn white_plastic_of_two_widths_is_a_white_furnace_all_round() {
     }
 }
 
+/// The share that comes back to ω_o from a coat over a metal, by walking between the two: `n` walks.
+fn walked(coat: &Bsdf, metal: &Bsdf, wo: Local, n: u32) -> f64 {
+    let mut sum = 0.0;
+    for i in 0..n {
+        let (mut at, mut weight) = (wo, 1.0f64);
+        for step in 0..64 {
+            let numbers = |part: u32| [0, 1, 2].map(|k| unit_f32(hash3(i, 8 * step + 4 * part + k, 99)));
+            let Some(s) = coat.sample(at, numbers(0)) else { break };
+            weight *= f64::from(s.throughput.0[0]);
+            if s.wi.cos() > 0.0 {
+                sum += weight;
+                break;
+            }
+            // On to the metal, and back up to the coat, which it meets from below.
+            let Some(r) = metal.sample(Local(-s.wi.0), numbers(1)) else { break };
+            weight *= f64::from(r.throughput.0[0]);
+            at = Local(-r.wi.0);
+        }
+    }
+    sum / f64::from(n)
+}
+
+/// Polished metal under a polished coat exactly, rough metal to 0.05 (measured: 0.045, α = 0.1 at a cosine of 0.4); under a
+/// rough coat, which is a model, to 0.17 (0.16, α = 0.1 there): it forgets how much light close to total reflection such a
+/// coat keeps back. Each with four standard deviations of 4 000 walks that carry at most 1.
+#[test]
+fn coated_metal_is_what_walks_between_coat_and_metal_find() {
+    let gold = Metal { eta: Rgb::grey(0.37), k: Rgb::grey(2.39) };
+    let inside = Metal { eta: gold.eta * (1.0 / 1.5), k: gold.k * (1.0 / 1.5) };
+    let rough = |alpha| Some(Facets::isotropic(alpha));
+    for (coat, metal, off) in [
+        (None, None, 1e-3),
+        (None, rough(0.1), 0.05),
+        (None, rough(0.3), 0.05),
+        (None, rough(0.7), 0.05),
+        (rough(0.1), None, 0.17),
+        (rough(0.3), rough(0.3), 0.17),
+    ] {
+        let whole = Bsdf::CoatedConductor(CoatedConductor::new(1.5, coat, gold, metal));
+        let top = coat.map_or(Bsdf::Dielectric(Dielectric::clear(1.5)), |f| {
+            Bsdf::RoughDielectric(RoughDielectric::new(1.5, f))
+        });
+        let base = metal.map_or(Bsdf::Conductor(Conductor { metal: inside, reflectance: Rgb::WHITE }), |f| {
+            Bsdf::RoughConductor(RoughConductor::new(inside, Rgb::WHITE, f))
+        });
+        for cos in [1.0, 0.7, 0.4, 0.15] {
+            let (ours, walks) = (albedo(&whole, cos, 0), walked(&top, &base, outgoing(cos), 4000));
+            let noise = 4.0 * (walks * (1.0 - walks)).max(0.0).sqrt() / 4000f64.sqrt();
+            assert!((ours - walks).abs() <= off + noise, "{whole:?} cos {cos}: {ours} {walks} ± {noise}");
+        }
+    }
+}
+
 #[test]
 fn a_coat_deepens_colours() {
     // ρ = 0.5 under n = 1.5: F̄ + (1−F̄)² ρ/(η² (1−ρR)), F̄ = 0.0918, R = 0.5964, is 0.3530; with the colour kept,
@@ -206,7 +263,7 @@ fn albedo_is_the_mean_over_directions() {
     for (name, bsdf) in Bsdf::examples() {
         for c in [0, 2] {
             // Coats of two widths: two azimuths of a quarter turn.
-            let coat = matches!(bsdf, Bsdf::RoughPlastic(_));
+            let coat = matches!(bsdf, Bsdf::RoughPlastic(_) | Bsdf::CoatedConductor(_));
             let azimuths: &[f32] = if coat { &[real::PI / 8.0, 3.0 * real::PI / 8.0] } else { &[0.0] };
             let of = |k: i32, phi: f32| share(&bsdf, direction(((k as f32 + 0.5) / n as f32).sqrt(), phi), c);
             let all = azimuths.iter().flat_map(|phi| (0..n).map(|k| of(k, *phi)));
@@ -216,7 +273,10 @@ fn albedo_is_the_mean_over_directions() {
             // masking leaves apart from what Fresnel's equations leave, and facets are measured by few samples: a twentieth.
             let rough = matches!(
                 bsdf,
-                Bsdf::RoughConductor(_) | Bsdf::RoughDielectric(_) | Bsdf::RoughThinDielectric(_)
+                Bsdf::RoughConductor(_)
+                    | Bsdf::CoatedConductor(_)
+                    | Bsdf::RoughDielectric(_)
+                    | Bsdf::RoughThinDielectric(_)
             );
             // Where total reflection sets in the curve falls like a root: 1/24^(3/2).
             let total =

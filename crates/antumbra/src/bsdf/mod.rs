@@ -4,9 +4,11 @@
 //! Laws of every kind: f(ω_o, ω_i) n_i² = f(ω_i, ω_o) n_o² (n the index of refraction on the side of each direction),
 //! albedo ≤ 1, `sample` agrees with `pdf` (χ²), finite at grazing.
 
+mod coated_conductor;
 mod conductor;
 mod dielectric;
 mod diffuse;
+mod diffuse_transmission;
 mod facets;
 mod fresnel;
 mod ggx;
@@ -22,9 +24,11 @@ mod rough_plastic;
 mod rough_thin_dielectric;
 mod thin_dielectric;
 
+pub use coated_conductor::CoatedConductor;
 pub use conductor::Conductor;
 pub use dielectric::Dielectric;
 pub use diffuse::Diffuse;
+pub use diffuse_transmission::DiffuseTransmission;
 pub use facets::Facets;
 pub use ggx::MIN_ALPHA;
 pub use metal::Metal;
@@ -156,10 +160,12 @@ macro_rules! kinds {
 
 kinds!(
     Diffuse,
+    DiffuseTransmission,
     Mirror,
     MetallicRoughness,
     Conductor,
     RoughConductor,
+    CoatedConductor,
     Dielectric,
     ThinDielectric,
     RoughDielectric,

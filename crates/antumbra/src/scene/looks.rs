@@ -115,6 +115,10 @@ fn reflection(
 ) -> Bsdf {
     match *surface {
         Surface::Diffuse { albedo } => Bsdf::Diffuse(Diffuse { albedo: tint(albedo) }),
+        Surface::DiffuseTransmission(mut d) => {
+            (d.reflectance, d.transmittance) = (tint(d.reflectance), gloss(d.transmittance));
+            Bsdf::DiffuseTransmission(d.kept())
+        }
         Surface::Mirror { reflectance } => Bsdf::Mirror(Mirror { reflectance: tint(reflectance) }),
         // An unlit one's colour is shown by `shown`; of a blend, `material_at` has drawn one.
         Surface::Unlit { .. } | Surface::Blend { .. } => Bsdf::Diffuse(Diffuse { albedo: Rgb::BLACK }),
@@ -130,6 +134,10 @@ fn reflection(
         Surface::RoughConductor(mut c) => {
             c.reflectance = tint(c.reflectance);
             Bsdf::RoughConductor(c)
+        }
+        Surface::CoatedConductor(mut c) => {
+            c.reflectance = tint(c.reflectance);
+            Bsdf::CoatedConductor(c)
         }
         Surface::Dielectric(mut d) => {
             (d.transmittance, d.reflectance) = (tint(d.transmittance), gloss(d.reflectance));

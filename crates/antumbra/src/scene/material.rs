@@ -6,8 +6,8 @@ use antumbra_math::Rgb;
 
 use super::{Channel, Roughness, Surface};
 use crate::bsdf::{
-    Coat, Conductor, Dielectric, Facets, Metal, RoughCoat, RoughConductor, RoughDielectric,
-    RoughThinDielectric, ThinDielectric,
+    Coat, CoatedConductor, Conductor, Dielectric, DiffuseTransmission, Facets, Metal, RoughCoat,
+    RoughConductor, RoughDielectric, RoughThinDielectric, ThinDielectric,
 };
 
 /// Index of a material in its scene.
@@ -66,7 +66,7 @@ pub struct Material {
     pub surface: Surface,
     /// Texture of the albedo or base colour, with the alpha.
     pub color: Option<TextureId>,
-    /// Texture of what it mirrors beside its colour: plastic, glass.
+    /// Texture of what it mirrors beside its colour: plastic, glass; of what it lets through: thin cloth.
     pub gloss: Option<TextureId>,
     /// Texture of metallic.
     pub metallic: Option<Channel>,
@@ -98,6 +98,11 @@ impl Material {
         Material::of(Surface::Diffuse { albedo })
     }
 
+    /// Paper, cloth, a leaf: light leaves evenly on both sides. Where both shares make more than 1, they are scaled down.
+    pub fn diffuse_transmission(reflectance: Rgb, transmittance: Rgb) -> Material {
+        Material::of(Surface::DiffuseTransmission(DiffuseTransmission { reflectance, transmittance }))
+    }
+
     /// A perfect mirror.
     pub fn mirror(reflectance: Rgb) -> Material {
         Material::of(Surface::Mirror { reflectance })
@@ -115,6 +120,16 @@ impl Material {
             None => Surface::Conductor(Conductor { metal, reflectance }),
             Some(facets) => Surface::RoughConductor(RoughConductor::new(metal, reflectance, facets)),
         })
+    }
+
+    /// Metal under a clear coat of index `eta` over that outside; each polished or with facets.
+    pub fn coated_conductor(
+        eta: f32,
+        coat: Option<Facets>,
+        metal: Metal,
+        facets: Option<Facets>,
+    ) -> Material {
+        Material::of(Surface::CoatedConductor(CoatedConductor::new(eta, coat, metal, facets)))
     }
 
     /// A body of glass, clear or ground; `eta` = n inside over n outside.

@@ -4,8 +4,8 @@ use antumbra_math::Rgb;
 
 use super::MaterialId;
 use crate::bsdf::{
-    BsdfKind, Coat, Conductor, Dielectric, Facets, Metal, Mirror, Plastic, RoughCoat, RoughConductor,
-    RoughDielectric, RoughThinDielectric, ThinDielectric,
+    BsdfKind, Coat, CoatedConductor, Conductor, Dielectric, DiffuseTransmission, Facets, Metal, Mirror,
+    Plastic, RoughCoat, RoughConductor, RoughDielectric, RoughThinDielectric, ThinDielectric,
 };
 
 /// How a surface reflects, before textures are looked up.
@@ -16,6 +16,8 @@ pub enum Surface {
         /// ρ, times the colour texture and the vertex colours.
         albedo: Rgb,
     },
+    /// Paper, cloth, a leaf: the colour texture multiplies what it reflects, the gloss texture what it lets through.
+    DiffuseTransmission(DiffuseTransmission),
     /// A perfect mirror.
     Mirror {
         /// Share of light reflected.
@@ -41,6 +43,8 @@ pub enum Surface {
     Conductor(Conductor),
     /// Rough metal; the colour texture multiplies its reflectance.
     RoughConductor(RoughConductor),
+    /// Metal under a clear coat; the colour texture multiplies the reflectance of the metal.
+    CoatedConductor(CoatedConductor),
     /// Clear glass, its index that of the inside over the outside; the colour texture multiplies what it lets through.
     Dielectric(Dielectric),
     /// A pane of glass; the colour texture multiplies what it lets through.
@@ -89,9 +93,11 @@ impl Surface {
             Surface::ThinDielectric(d) => d.has_single_directions(),
             Surface::Plastic { albedo, coat, .. } => Plastic::new(*coat, *albedo).has_single_directions(),
             Surface::RoughConductor(c) => c.has_single_directions(),
+            Surface::CoatedConductor(c) => c.has_single_directions(),
             Surface::RoughDielectric(d) => d.has_single_directions(),
             Surface::RoughThinDielectric(d) => d.has_single_directions(),
             Surface::Diffuse { .. }
+            | Surface::DiffuseTransmission(_)
             | Surface::Unlit { .. }
             | Surface::MetallicRoughness { .. }
             | Surface::RoughPlastic { .. }
@@ -101,7 +107,10 @@ impl Surface {
 
     /// Its facets are wider along one tangent than along the other, so that it matters where the tangents lie.
     pub(super) fn is_stretched(&self) -> bool {
-        self.facets().is_some_and(Facets::is_stretched)
+        match self {
+            Surface::CoatedConductor(c) => c.is_stretched(),
+            _ => self.facets().is_some_and(Facets::is_stretched),
+        }
     }
 
     /// Its facets, of the kinds that have some of their own.
@@ -167,10 +176,12 @@ impl Surface {
             Surface::Plastic { albedo, gloss, .. } | Surface::RoughPlastic { albedo, gloss, .. } => {
                 (Some(albedo), Some(gloss))
             }
+            Surface::DiffuseTransmission(d) => (Some(&mut d.reflectance), Some(&mut d.transmittance)),
             Surface::Mirror { reflectance } => (Some(reflectance), None),
             Surface::MetallicRoughness { base, .. } => (Some(base), None),
             Surface::Conductor(c) => (Some(&mut c.reflectance), None),
             Surface::RoughConductor(c) => (Some(&mut c.reflectance), None),
+            Surface::CoatedConductor(c) => (Some(&mut c.reflectance), None),
             Surface::Dielectric(d) => (Some(&mut d.transmittance), Some(&mut d.reflectance)),
             Surface::ThinDielectric(d) => (Some(&mut d.transmittance), Some(&mut d.reflectance)),
             Surface::RoughDielectric(d) => (Some(&mut d.transmittance), Some(&mut d.reflectance)),
@@ -181,10 +192,11 @@ impl Surface {
     }
 
     /// The metal that it is made of.
-    fn metal(&self) -> Option<&Metal> {
+    fn metal(&self) -> Option<Metal> {
         match self {
-            Surface::Conductor(c) => Some(&c.metal),
-            Surface::RoughConductor(c) => Some(&c.metal),
+            Surface::Conductor(c) => Some(c.metal),
+            Surface::RoughConductor(c) => Some(c.metal),
+            Surface::CoatedConductor(c) => Some(c.metal()),
             _ => None,
         }
     }

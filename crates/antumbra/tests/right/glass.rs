@@ -42,7 +42,7 @@ fn clear_glass_under_an_even_sky_cannot_be_seen() {
     }
 }
 
-/// The lit room with a ball and a sheet of ground glass, and rough copper on a wall.
+/// The lit room with a ball and a sheet of ground glass, rough copper on a wall, and a curtain.
 pub(super) fn ground_glass() -> SceneBuilder {
     let mut room = rooms::lit();
     let glass = room.material(Material::dielectric(1.5, Some(Facets::isotropic(0.4))));
@@ -53,6 +53,10 @@ pub(super) fn ground_glass() -> SceneBuilder {
     room.object("sheet", sheet, glass);
     let plate = parallelogram(Vec3::new(0.2, 0.9, -2.9), Vec3::X * 2.0, Vec3::Y * 1.5);
     room.object("copper", plate, copper);
+    let colors = [Rgb([0.2, 0.4, 0.3]), Rgb([0.5, 0.3, 0.4])];
+    let cloth = room.material(Material::diffuse_transmission(colors[0], colors[1]));
+    let curtain = parallelogram(Vec3::new(-1.9, 0.9, -1.4), Vec3::new(1.2, 0.0, 0.5), Vec3::Y * 1.4);
+    room.object("curtain", curtain, cloth);
     room
 }
 

@@ -1,6 +1,6 @@
 //! Meshes of simple bodies. All are closed unless their sentence says "open"; fronts look outwards.
 
-use antumbra_math::{DMat3, DVec3, Transform, real};
+use antumbra_math::{DVec3, Transform, real};
 use antumbra_trace::Triangles;
 
 use super::noise::TURN;
@@ -224,13 +224,7 @@ pub fn turn_y(angle: f64, to: DVec3) -> Transform {
 
 /// A turn about an axis of unit length by an angle [rad], counter-clockwise against it, then a move.
 pub fn turn(axis: DVec3, angle: f64, to: DVec3) -> Transform {
-    let (c, s) = (real::cos(angle), real::sin(angle));
-    // Rodrigues: x cos + (axis × x) sin + axis (axis · x)(1 − cos), for each unit vector x.
-    let column = |x: DVec3| x * c + axis.cross(x) * s + axis * (axis.dot(x) * (1.0 - c));
-    Transform {
-        linear: DMat3::from_cols(column(DVec3::X), column(DVec3::Y), column(DVec3::Z)),
-        translation: to,
-    }
+    Transform { translation: to, ..Transform::rotation(axis, angle) }
 }
 
 /// Cosine and sine of a part of a full turn.
