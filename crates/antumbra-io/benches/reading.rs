@@ -1,4 +1,5 @@
-//! How long readers take against reading the bytes: a PLY of 10⁶ triangles and a GLB of 100 MB, warm page cache.
+//! How long readers take against reading the bytes: a PLY of 10⁶ triangles, a GLB of 100 MB, the same field as text and STL,
+//! warm page cache.
 //!
 //! `cargo bench --profile demo -p antumbra-io --bench reading`; `ANTUMBRA_DETAIL` scales the files, `ANTUMBRA_ROUNDS`
 //! says how often each is read, `ANTUMBRA_RESULT` names a JSON file for the times.
@@ -40,6 +41,69 @@ fn ply(n: u32) -> Vec<u8> {
         t.iter().for_each(|i| out.extend(i.to_le_bytes()));
     }
     out
+}
+
+/// The field as rows of text: what stands before, between and behind vertices and triangles.
+fn text(n: u32, [head, vertex, middle, triangle, end]: [&str; 5], base: u32) -> Vec<u8> {
+    let mut out = head.to_string();
+    for [x, y, z] in vertices(n) {
+        // As exporters write them: six digits behind the point.
+        out.push_str(&format!("{vertex}{:.6} {:.6} {:.6}\n", x * 0.123_457, y * 0.761_3, z * 0.917_3));
+    }
+    out.push_str(middle);
+    for [a, b, c] in triangles(n) {
+        out.push_str(&format!("{triangle}{} {} {}\n", a + base, b + base, c + base));
+    }
+    out.push_str(end);
+    out.into_bytes()
+}
+
+fn ply_text(n: u32) -> Vec<u8> {
+    let head = format!(
+        "ply\nformat ascii 1.0\nelement vertex {}\nproperty float x\nproperty float y\nproperty float z\n\
+         element face {}\nproperty list uchar int vertex_indices\nend_header\n",
+        (n + 1) * (n + 1),
+        2 * n * n
+    );
+    text(n, [&head, "", "", "3 ", ""], 0)
+}
+
+fn obj(n: u32) -> Vec<u8> {
+    text(n, ["", "v ", "", "f ", ""], 1)
+}
+
+fn pbrt(n: u32) -> Vec<u8> {
+    let head = "WorldBegin\nShape \"trianglemesh\" \"point3 P\" [\n";
+    text(n, [head, "", "] \"integer indices\" [\n", "", "]\n"], 0)
+}
+
+/// The corners of each triangle.
+fn corners(n: u32) -> impl Iterator<Item = [[f32; 3]; 3]> {
+    let all: Vec<_> = vertices(n).collect();
+    triangles(n).map(move |t| t.map(|i| all[i as usize]))
+}
+
+fn stl(n: u32) -> Vec<u8> {
+    let mut out = vec![b' '; 80];
+    out.extend((2 * n * n).to_le_bytes());
+    for [a, b, c] in corners(n) {
+        [[0.0, 1.0, 0.0], a, b, c].as_flattened().iter().for_each(|x| out.extend(x.to_le_bytes()));
+        out.extend([0, 0]);
+    }
+    out
+}
+
+fn stl_text(n: u32) -> Vec<u8> {
+    let mut out = String::from("solid field\n");
+    for t in corners(n) {
+        out.push_str("facet normal 0.000000 1.000000 0.000000\nouter loop\n");
+        for [x, y, z] in t {
+            out.push_str(&format!("vertex {:.6} {:.6} {:.6}\n", x * 0.123_457, y * 0.761_3, z * 0.917_3));
+        }
+        out.push_str("endloop\nendfacet\n");
+    }
+    out.push_str("endsolid field\n");
+    out.into_bytes()
 }
 
 /// Positions, normals, texture coordinates and indices.
@@ -118,10 +182,11 @@ fn race(name: &str, format: Format, bytes: Vec<u8>, folder: &Path) -> Result<Str
     }
     let ratios: Vec<f64> = building.iter().zip(&reading).map(|(b, r)| b / r).collect();
     println!(
-        "{name:<12} {:>6.1} MB  {triangles:>9} triangles  bytes {:>6.1} ms  bytes → builder {:>6.1} ms  ratio {:.2}",
+        "{name:<14} {:>6.1} MB  {triangles:>9} triangles  bytes {:>6.1} ms  bytes → builder {:>7.1} ms  {:>6.0} MB/s  ratio {:.2}",
         bytes.len() as f64 / 1e6,
         median(&reading) * 1e3,
         median(&building) * 1e3,
+        bytes.len() as f64 / 1e6 / median(&building),
         median(&ratios)
     );
     Ok(format!(
@@ -136,15 +201,29 @@ fn number(name: &str, without: f64) -> f64 {
     std::env::var(name).ok().and_then(|v| v.parse().ok()).unwrap_or(without)
 }
 
+/// Makes the bytes of a field of a side.
+type Make = fn(u32) -> Vec<u8>;
+
+/// Name, format, what makes its bytes, and the side of the field: about 100 MB each, but for the first.
+const FILES: [(&str, Format, Make, f64); 7] = [
+    ("field.ply", Format::Ply, ply, 708.0),
+    ("field.glb", Format::Gltf, glb, 1336.0),
+    ("field.stl", Format::Stl, stl, 1000.0),
+    ("text.ply", Format::Ply, ply_text, 1150.0),
+    ("text.obj", Format::Obj, obj, 1130.0),
+    ("text.stl", Format::Stl, stl_text, 490.0),
+    ("text.pbrt", Format::Pbrt, pbrt, 1150.0),
+];
+
 fn main() -> Result<(), String> {
     let edge = number("ANTUMBRA_DETAIL", 1.0).sqrt();
     let folder = std::env::temp_dir().join(format!("antumbra-reading-{}", std::process::id()));
     fs::create_dir_all(&folder).map_err(|e| e.to_string())?;
-    let found = [
-        ("field.ply", Format::Ply, ply((708.0 * edge) as u32)),
-        ("field.glb", Format::Gltf, glb((1336.0 * edge) as u32)),
-    ]
-    .map(|(name, format, bytes)| race(name, format, bytes, &folder));
+    let mut found = Vec::new();
+    // One file after the other, so that each has the memory for itself.
+    for (name, format, make, side) in FILES {
+        found.push(race(name, format, make((side * edge) as u32), &folder));
+    }
     fs::remove_dir_all(&folder).map_err(|e| e.to_string())?;
     let found = found.into_iter().collect::<Result<Vec<_>, _>>()?;
     match std::env::var("ANTUMBRA_RESULT") {

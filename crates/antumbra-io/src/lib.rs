@@ -5,6 +5,7 @@
 
 mod error;
 mod files;
+mod forecast;
 mod format;
 mod limits;
 pub mod picture;
@@ -14,6 +15,7 @@ mod write;
 
 pub use error::{ReadError, WriteError};
 pub use files::{FileError, Files, FolderFiles, MemoryFiles};
+pub use forecast::size_of;
 pub use format::{Format, READS, format_of};
 pub use limits::Limits;
 pub use read::{

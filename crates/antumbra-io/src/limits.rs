@@ -5,6 +5,8 @@ use std::cell::Cell;
 /// How much a file may ask for before it is refused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Limits {
+    /// Forecast peak of memory for a scene [bytes]; none without.
+    pub memory: Option<u64>,
     /// Size of one file [bytes].
     pub file_bytes: u64,
     /// Pixels of one picture.
@@ -24,6 +26,7 @@ pub struct Limits {
 impl Default for Limits {
     fn default() -> Limits {
         Limits {
+            memory: None,
             file_bytes: 8 << 30,
             pixels: 1 << 26,
             texture_bytes: 8 << 30,

@@ -10,13 +10,15 @@ mod obj;
 mod pbrt;
 mod ply;
 mod polygon;
+mod spectrum;
 mod stl;
 pub(crate) mod tessellate;
 mod texels;
 mod text;
 mod uri;
 
-use std::collections::HashMap;
+use std::cell::RefCell;
+use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
 
 use antumbra::scene::{Level, Message, SceneBuilder};
@@ -24,6 +26,7 @@ use antumbra_math::{DMat3, DVec3, Transform};
 
 use crate::error::ReadError;
 use crate::files::{Files, FolderFiles, read_limited};
+use crate::forecast::Forecast;
 use crate::format::{Format, READS, format_of};
 use crate::limits::{Allowance, Limits};
 
@@ -53,13 +56,27 @@ pub(crate) struct Context<'a> {
     pub draco: Option<DracoDecoder>,
     /// Decoded pictures.
     pub textures: Allowance,
+    /// Memory that the scene will take.
+    pub forecast: Forecast,
     memory: Allowance,
+    /// Files beside that brought room with them.
+    granted: RefCell<HashSet<String>>,
 }
 
 impl Context<'_> {
     /// Takes room for `count` items of `size` bytes.
     pub(crate) fn take(&self, count: u64, size: u64) -> Result<(), String> {
         self.memory.take(count, size)
+    }
+
+    /// A file beside came: `bytes` of it. However often it is asked for, and however its path is spelled, it brings room once.
+    pub(crate) fn grant_file(&self, name: &str, bytes: u64) {
+        let words: Vec<&str> =
+            name.split(['/', '\\']).filter(|word| !word.is_empty() && *word != ".").collect();
+        if self.granted.borrow_mut().insert(words.join("/")) {
+            self.grant(bytes);
+            self.forecast.beside(bytes);
+        }
     }
 
     /// More input came: `bytes` of it.
@@ -156,7 +173,9 @@ fn context<'a>(
         at_time: options.at_time.or(options.animation.as_ref().map(|_| 0.0)),
         draco: options.draco,
         textures: Allowance::new(limits.texture_bytes),
+        forecast: Forecast::new(limits.memory, length as u64),
         memory: Allowance::new(limits.expansion_base),
+        granted: RefCell::default(),
     };
     context.grant(length as u64);
     context
@@ -179,7 +198,7 @@ fn refuse_foreign(format: Format, context: &Context) -> Result<(), ReadError> {
 
 fn read_as(format: Format, bytes: &[u8], context: &Context) -> Result<SceneBuilder, ReadError> {
     refuse_foreign(format, context)?;
-    match format {
+    let scene = match format {
         Format::Gltf => gltf::read(bytes, context),
         Format::Obj => obj::read(bytes, context),
         Format::Ply => ply::read(bytes, context),
@@ -191,7 +210,9 @@ fn read_as(format: Format, bytes: &[u8], context: &Context) -> Result<SceneBuild
             let what = format!("{name} is not read yet");
             Err(ReadError::new("", what).hint(format!("antumbra reads {READS}.")))
         }
-    }
+    }?;
+    context.forecast.whole(&scene)?;
+    Ok(scene)
 }
 
 /// Reads a scene from disk; the only reader that touches a file system.
@@ -203,6 +224,9 @@ pub fn read_path(path: &Path, options: &ReadOptions) -> Result<SceneBuilder, Rea
 fn read_file(path: &Path, options: &ReadOptions) -> Result<SceneBuilder, ReadError> {
     let limits = &options.limits;
     let unreadable = |why: String| ReadError::new("", format!("cannot be read ({why})"));
+    if let Ok(about) = std::fs::metadata(path) {
+        Forecast::new(limits.memory, about.len()).part(0, 0)?;
+    }
     let bytes = read_limited(path, limits.file_bytes).map_err(unreadable)?;
     let Some(format) = format_of(path, &bytes) else {
         let what = "its format is not known: neither its name nor its first bytes tell it";

@@ -19,7 +19,7 @@ pub(super) fn read(bytes: &[u8], context: &Context) -> Result<SceneBuilder, Read
     }
     let mut scene = SceneBuilder::default();
     let (vertices, kind) = if is_binary(bytes) {
-        (binary(bytes)?, "STL, binary")
+        (binary(bytes, context)?, "STL, binary")
     } else {
         (ascii(&plain(bytes), context)?, "STL, ASCII")
     };
@@ -50,7 +50,7 @@ fn is_binary(bytes: &[u8]) -> bool {
     fits || !text
 }
 
-fn binary(bytes: &[u8]) -> Result<Vec<[f32; 3]>, ReadError> {
+fn binary(bytes: &[u8], context: &Context) -> Result<Vec<[f32; 3]>, ReadError> {
     let n = announced(bytes)
         .ok_or_else(|| ReadError::new("header", format!("ends after {} of {HEAD} bytes", bytes.len())))?;
     let records = bytes.get(HEAD..HEAD.saturating_add(n.saturating_mul(RECORD))).ok_or_else(|| {
@@ -61,6 +61,7 @@ fn binary(bytes: &[u8]) -> Result<Vec<[f32; 3]>, ReadError> {
     if n > u32::MAX as usize / 3 {
         return Err(ReadError::new("header", format!("{n} triangles are too many")));
     }
+    context.forecast.part(48 * n as u64, n as u64)?;
     let mut vertices: Vec<[f32; 3]> = Vec::with_capacity(3 * n);
     for record in records.chunks_exact(RECORD) {
         vertices.extend_from_slice(&bytemuck::pod_read_unaligned::<[[f32; 3]; 3]>(&record[12..48]));

@@ -10,7 +10,7 @@ use std::fs;
 use std::path::PathBuf;
 
 use antumbra::render::{Picture, render};
-use antumbra::scene::{SceneBuilder, builtin};
+use antumbra::scene::{Projection, SceneBuilder, builtin};
 use antumbra::schedule::Flow;
 use antumbra::settings::Settings;
 use antumbra_io::{ReadOptions, Written, read_path, write_scene};
@@ -66,6 +66,40 @@ fn mitsuba_scenes_give_the_same_picture_to_the_bit() {
         assert_eq!(a.pixels, b.pixels, "{name}");
         assert!(a.pixels.iter().flatten().any(|x| *x > 0.0), "{name}");
         assert_eq!(read.cameras[0].size, scene.cameras[0].size);
+    }
+}
+
+/// Colours of vertices come back from Mitsuba's XML with every bit.
+#[test]
+fn painted_meshes_come_back_from_mitsuba() {
+    let folder = Folder::new("painted");
+    let mut scene = built_in("cornell-box");
+    for mesh in &mut scene.meshes {
+        let tint = |i: usize| [0.25 * (i % 4) as f32, 1.0, 0.125 * (i % 8) as f32, 1.0];
+        mesh.colors = Some((0..mesh.triangles.vertices.len()).map(tint).collect());
+    }
+    let read = back(&folder, "painted.xml", &scene);
+    assert!(read.meshes.iter().any(|m| m.colors.is_some()));
+    let [a, b] = [&scene, &read].map(|s| picture(s, &[("estimator", "mis")]).pixels);
+    // White times a colour and a colour times white: the factor is rounded once on either way.
+    let near = |(x, y): (&f32, &f32)| (x - y).abs() <= 4.0 * f32::EPSILON * x.max(1.0);
+    assert!(a.iter().flatten().zip(b.iter().flatten()).all(near));
+}
+
+/// Parallel rays come back: the picture's height takes one rounding of f64, which moves no f32 by more than its last bit.
+#[test]
+fn an_orthographic_camera_comes_back() {
+    let folder = Folder::new("parallel");
+    let mut scene = built_in("pillars");
+    for mirrored in [false, true] {
+        let camera = &mut scene.cameras[0];
+        (camera.projection, camera.mirrored) = (Projection::Orthographic { height: 3.7 }, mirrored);
+        let read = back(&folder, "parallel.xml", &scene);
+        let Projection::Orthographic { height } = read.cameras[0].projection else { panic!() };
+        assert!((height / 3.7 - 1.0).abs() < 1e-15 && read.cameras[0].mirrored == mirrored);
+        let [a, b] = [&scene, &read].map(|s| picture(s, &[("estimator", "ambient-occlusion")]).pixels);
+        let same = a.iter().zip(&b).filter(|(a, b)| a == b).count();
+        assert!(same * 100 >= a.len() * 99, "{same} of {}", a.len());
     }
 }
 

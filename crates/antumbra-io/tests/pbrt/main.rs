@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may stop at the first surprise")]
 
+mod limits;
 mod shapes;
 
 use std::collections::HashMap;
@@ -171,6 +172,44 @@ fn materials() {
     assert!(matches!(of(2).surface, Surface::Dielectric(_)));
     assert_eq!((of(3).alpha, of(3).opacity), (Alpha::Blend, 0.0));
     assert_eq!((of(4).alpha, of(4).opacity), (Alpha::Blend, 0.25));
+}
+
+/// A leaf reflects by one texture and lets light through by the other; two shares that make more than 1 are named.
+#[test]
+fn a_leaf_lets_light_through() {
+    let s = world(
+        "Texture \"a\" \"spectrum\" \"checkerboard\"\nTexture \"b\" \"spectrum\" \"checkerboard\" \"float uscale\" 2\n\
+         Material \"diffusetransmission\" \"texture reflectance\" \"a\" \"texture transmittance\" \"b\" \"float scale\" 0.5\n\
+         Shape \"sphere\"\nMaterial \"diffusetransmission\" \"rgb reflectance\" [ 0.5 0.5 0.5 ] \"rgb transmittance\" [ 1 1 1 ]\n\
+         Shape \"sphere\"",
+    );
+    let leaf = &s.materials[0];
+    let Surface::DiffuseTransmission(d) = leaf.surface else { panic!() };
+    assert_eq!((d.reflectance, d.transmittance), (Rgb::grey(0.5), Rgb::grey(0.5)));
+    assert!(leaf.color.is_some() && leaf.gloss.is_some() && leaf.color != leaf.gloss);
+    let said =
+        "line 6: a diffusetransmission gives back more light than it gets: its two shares are scaled down";
+    assert!(warnings(&s).iter().any(|s| s == said));
+}
+
+/// Metal in its coat: the two roughnesses apart, α their roots; polished where the file says nothing.
+#[test]
+fn coated_metal() {
+    let s = world(
+        "Material \"coatedconductor\" Shape \"sphere\" LightSource \"infinite\"\n\
+         Material \"coatedconductor\" \"float interface.eta\" 1.3 \"float interface.roughness\" 0\n\
+         \"float conductor.roughness\" 0.09 \"spectrum conductor.eta\" \"metal-Au-eta\" \"spectrum conductor.k\" \"metal-Au-k\"\n\
+         Shape \"sphere\"",
+    );
+    assert!(warnings(&s).is_empty(), "{:?}", warnings(&s));
+    let of = |i: usize| match s.materials[s.objects[i].material as usize].surface {
+        Surface::CoatedConductor(c) => c,
+        other => panic!("{other:?}"),
+    };
+    assert_eq!((of(0).eta(), of(0).facets()), (1.5, None));
+    assert_eq!((of(1).eta(), of(1).facets().unwrap().alpha()), (1.3, [0.3, 0.3]));
+    let gold = antumbra::bsdf::Metal::named("Au").unwrap();
+    assert!((0..3).all(|c| (of(1).metal().k.0[c] / gold.k.0[c] - 1.0).abs() < 1e-6));
 }
 
 #[test]

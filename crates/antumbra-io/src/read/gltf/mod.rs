@@ -8,6 +8,7 @@ mod container;
 mod document;
 pub(crate) mod draco;
 mod extensions;
+mod forecast;
 mod light;
 mod material;
 mod mesh;
@@ -53,6 +54,9 @@ pub(super) fn read(bytes: &[u8], context: &Context) -> Result<SceneBuilder, Read
         said.warn("GLB header", what);
     }
     extensions::check(&doc, &mut said)?;
+    if context.forecast.is_asked() {
+        forecast::tell(&doc, context)?;
+    }
     let buffers = buffers::load(&doc, container.bin, context)?;
     stand(&mut doc, &buffers, context, &mut said)?;
     let variant = variant::find(&doc, context.variant)?;

@@ -8,6 +8,7 @@ use antumbra::scene::nearest;
 use roxmltree::{Document, Node, ParsingOptions};
 
 use crate::error::ReadError;
+use crate::files::FileError;
 use crate::read::Context;
 use crate::read::text::plain;
 
@@ -15,6 +16,8 @@ use crate::read::text::plain;
 const DEEPEST: usize = 100;
 /// Files that include each other, one below the other.
 const INCLUDES: usize = 15;
+/// Folders that `<path>` adds.
+const FOLDERS: usize = 64;
 /// Bytes of a text that is made of `$names`.
 const LONGEST: usize = 1 << 16;
 /// Bytes that an element takes in memory, at least.
@@ -74,17 +77,14 @@ pub(super) struct Tree {
     pub root: Element,
     /// What the scene calls its parameters, with their values.
     pub parameters: Vec<(String, String)>,
+    /// The folders that the scene's files may lie in besides its own, the last one first.
+    pub folders: Vec<String>,
 }
 
 /// Reads the scene and everything that it includes.
 pub(super) fn load(bytes: &[u8], context: &Context) -> Result<Tree, ReadError> {
-    let mut loader = Loader {
-        context,
-        values: HashMap::new(),
-        names: Vec::new(),
-        above: Vec::new(),
-        seen: HashSet::new(),
-    };
+    let mut loader =
+        Loader { context, values: HashMap::new(), names: Vec::new(), folders: Vec::new(), above: Vec::new() };
     for (name, value) in context.parameters {
         loader.values.insert(name.clone(), value.clone());
     }
@@ -95,7 +95,18 @@ pub(super) fn load(bytes: &[u8], context: &Context) -> Result<Tree, ReadError> {
         return Err(ReadError::new("", what));
     };
     let parameters = loader.names.iter().map(|n| (n.clone(), loader.values[n].clone())).collect();
-    Ok(Tree { root, parameters })
+    Ok(Tree { root, parameters, folders: loader.folders })
+}
+
+/// The bytes of a file that the scene names, from the first of its folders that has it.
+pub(super) fn open(context: &Context, folders: &[String], name: &str) -> Result<Vec<u8>, FileError> {
+    for folder in folders {
+        match context.files.open(&format!("{folder}/{name}")) {
+            Err(FileError::Missing) => {}
+            found => return found,
+        }
+    }
+    context.files.open(name)
 }
 
 struct Loader<'a> {
@@ -104,10 +115,10 @@ struct Loader<'a> {
     values: HashMap<String, String>,
     /// The parameters that the files declare, in order.
     names: Vec<String>,
+    /// The folders of `<path>`, the last one first.
+    folders: Vec<String>,
     /// The files that are being read, outermost first.
     above: Vec<String>,
-    /// The files that were read.
-    seen: HashSet<String>,
 }
 
 impl Loader<'_> {
@@ -160,6 +171,7 @@ impl Loader<'_> {
         for child in node.children().filter(Node::is_element) {
             match child.tag_name().name() {
                 "default" => self.default(child, lines.place(child, file))?,
+                "path" => self.path(child, lines.place(child, file))?,
                 "include" => element.children.extend(self.include(child, lines.place(child, file))?),
                 _ => element.children.push(self.element(child, lines, file, depth + 1)?),
             }
@@ -180,6 +192,20 @@ impl Loader<'_> {
         Ok(())
     }
 
+    /// `<path value>`: a folder in which files are looked for first.
+    fn path(&mut self, node: Node, at: Place) -> Result<(), ReadError> {
+        let folder = self.filled(node.attribute("value").unwrap_or("")).map_err(|what| at.error(what))?;
+        if let Err(FileError::Refused(why)) = self.context.files.open(&folder) {
+            let hint = "A folder below that of the scene is needed, or --files-from with one above it.";
+            return Err(at.error(format!("the folder \"{folder}\" of <path>: {why}")).hint(hint));
+        }
+        if self.folders.len() >= FOLDERS {
+            return Err(at.error(format!("more than {FOLDERS} <path>")));
+        }
+        self.folders.insert(0, folder);
+        Ok(())
+    }
+
     fn include(&mut self, node: Node, at: Place) -> Result<Vec<Element>, ReadError> {
         let Some(name) = node.attribute("filename") else {
             return Err(at.error("an <include> needs a filename"));
@@ -190,12 +216,10 @@ impl Loader<'_> {
                 format!("the file \"{name}\" includes itself, or more than {INCLUDES} lie in each other");
             return Err(at.error(what));
         }
-        let bytes = self.context.files.open(&name);
+        let bytes = open(self.context, &self.folders, &name);
         let bytes = bytes.map_err(|e| at.error(format!("the included file \"{name}\": {e}")))?;
         // A file that is drawn in again and again brings no more room with it.
-        if self.seen.insert(name.clone()) {
-            self.context.grant(bytes.len() as u64);
-        }
+        self.context.grant_file(&name, bytes.len() as u64);
         self.context.take(bytes.len() as u64, 1).map_err(|what| at.error(what))?;
         self.above.push(name.clone());
         let inside = self.file(&bytes, name.as_str().into());
@@ -250,9 +274,10 @@ fn check_version(root: Node, at: &Place) -> Result<(), ReadError> {
     let old = version.starts_with("0.") || version.starts_with("1.");
     if old {
         let what = format!(
-            "this scene is of Mitsuba {version}; Mitsuba 3 writes its names otherwise (toWorld is to_world)"
+            "this scene is of Mitsuba {version}, whose names are others (toWorld is to_world in Mitsuba 3)"
         );
-        let hint = "Loading it once with Mitsuba 3 and saving it (mi.xml.dict_to_xml) brings it up to date.";
+        let hint = "Mitsuba 3 upgrades such a file: mitsuba.parser.parse_file, transform_upgrade and write_file; then \
+                    write version=\"3.0.0\" in the new one.";
         return Err(at.error(what).hint(hint));
     }
     Ok(())
@@ -291,18 +316,37 @@ impl Lines {
     }
 }
 
-/// Elements that bear an id, by it.
+/// Elements that bear an id, by it, and by what `<alias id="old" as="new"/>` calls them besides.
 pub(super) fn ids(root: &Element) -> Result<HashMap<&str, &Element>, ReadError> {
-    let (mut all, mut twice) = (HashMap::new(), HashSet::new());
+    let (mut all, mut twice, mut aliases) = (HashMap::new(), HashSet::new(), Vec::new());
     let mut rest = vec![root];
     while let Some(element) = rest.pop() {
         rest.extend(element.children.iter().rev());
-        if element.tag == "ref" {
-            continue;
+        match element.tag.as_str() {
+            "ref" => continue,
+            "alias" => {
+                aliases.push(element);
+                continue;
+            }
+            _ => {}
         }
         let Some(id) = element.given("id") else { continue };
         if all.insert(id, element).is_some() && twice.insert(id) {
             return Err(element.at.error(format!("the id \"{id}\" is given twice")));
+        }
+    }
+    for alias in aliases {
+        let (Some(id), Some(name)) = (alias.given("id"), alias.given("as")) else {
+            return Err(alias.at.error("an <alias> needs \"id\" and \"as\""));
+        };
+        let named = all.get(id).copied().ok_or_else(|| {
+            alias
+                .at
+                .error(format!("nothing has the id \"{id}\""))
+                .hint("An <alias> of an <alias> stands below it.")
+        })?;
+        if all.insert(name, named).is_some() {
+            return Err(alias.at.error(format!("the id \"{name}\" is given twice")));
         }
     }
     Ok(all)

@@ -1,4 +1,4 @@
-//! Emitters: area (of a shape), point, spot, directional, constant, envmap.
+//! Emitters: area (of a shape), point, spot, directional, constant, envmap; sunsky has a file of its own.
 
 use std::sync::Arc;
 
@@ -9,18 +9,20 @@ use antumbra_math::{DVec3, Frame, Rgb, Transform};
 use super::Reader;
 use super::document::Element;
 use crate::error::ReadError;
+use crate::read::spectrum::Of;
 use crate::read::texels;
 
 /// Adds the light of an emitter; the transform takes it into the world.
 type Make = for<'a> fn(&mut Reader<'a>, &'a Element, &Transform) -> Result<(), ReadError>;
 
 /// Every emitter plugin that stands alone. To add one: a function and a line here.
-const EMITTERS: [(&str, Make); 5] = [
+const EMITTERS: [(&str, Make); 6] = [
     ("point", point),
     ("spot", spot),
     ("directional", directional),
     ("constant", constant),
     ("envmap", envmap),
+    ("sunsky", super::sky::sunsky),
 ];
 
 impl<'a> Reader<'a> {
@@ -53,7 +55,7 @@ impl<'a> Reader<'a> {
 
     /// An amount of light: not negative.
     fn amount(&mut self, element: &'a Element, name: &str, default: f32) -> Result<Rgb, ReadError> {
-        let amount = self.color(element, name, default)?;
+        let amount = self.color_of(element, name, default, Of::Light)?;
         if amount.0.iter().any(|c| *c < 0.0) {
             let what =
                 format!("\"{name}\" of {} is {:?}: it must not be negative", element.words(), amount.0);
@@ -123,7 +125,7 @@ fn envmap<'a>(reader: &mut Reader<'a>, element: &'a Element, world: &Transform) 
     element.property("mis_compensation");
     let file = element.filename()?;
     let fail = |why: String| element.at.error(format!("the picture \"{file}\": {why}"));
-    let bytes = reader.context.files.open(file).map_err(|e| fail(e.to_string()))?;
+    let bytes = reader.open(file).map_err(|e| fail(e.to_string()))?;
     let image = texels::picture(&bytes, true, reader.context).map_err(fail)?;
     let axis = |v: DVec3| world.vector(v).try_normalize().map(|v| v.as_vec3());
     let (Some(s), Some(t), Some(n)) = (axis(DVec3::X), axis(DVec3::Y), axis(DVec3::Z)) else {

@@ -11,6 +11,8 @@ mod integrator;
 mod properties;
 mod sensor;
 mod shape;
+mod sky;
+mod spectrum;
 mod texture;
 mod transform;
 
@@ -22,16 +24,21 @@ use document::Element;
 
 use super::{Context, Counted};
 use crate::error::ReadError;
+use crate::files::FileError;
 
 /// The work in progress: the elements by their ids, what is built from them, and what was said.
 struct Reader<'a> {
     context: &'a Context<'a>,
     ids: HashMap<&'a str, &'a Element>,
+    /// Where its files lie besides its own folder.
+    folders: &'a [String],
     scene: SceneBuilder,
     said: Counted,
     bsdfs: bsdf::Known,
     textures: texture::Known,
     meshes: shape::Known,
+    /// The serialized file that was read last.
+    serialized: shape::Serialized,
     /// Shapes that the file asks for, drawn or not.
     announced: usize,
 }
@@ -45,6 +52,7 @@ pub(super) fn read(bytes: &[u8], context: &Context) -> Result<SceneBuilder, Read
     let mut reader = Reader {
         context,
         ids: document::ids(&tree.root)?,
+        folders: &tree.folders,
         scene: SceneBuilder {
             source: "Mitsuba 3 XML".into(),
             parameters: tree.parameters.clone(),
@@ -54,6 +62,7 @@ pub(super) fn read(bytes: &[u8], context: &Context) -> Result<SceneBuilder, Read
         bsdfs: bsdf::Known::default(),
         textures: texture::Known::default(),
         meshes: shape::Known::default(),
+        serialized: shape::Serialized::default(),
         announced: 0,
     };
     for child in &tree.root.children {
@@ -65,7 +74,7 @@ pub(super) fn read(bytes: &[u8], context: &Context) -> Result<SceneBuilder, Read
             "integrator" => reader.integrator(child)?,
             // What bears an id waits until somebody asks for it.
             "bsdf" | "texture" | "medium" | "film" | "sampler" | "spectrum" | "rgb" | "float" | "integer"
-            | "string" | "boolean" | "ref" => {}
+            | "string" | "boolean" | "ref" | "alias" => {}
             tag => reader.said.warn(child.at.words(), format!("<{tag}> is not read: left out")),
         }
     }
@@ -73,6 +82,11 @@ pub(super) fn read(bytes: &[u8], context: &Context) -> Result<SceneBuilder, Read
 }
 
 impl<'a> Reader<'a> {
+    /// The bytes of a file that the scene names.
+    fn open(&self, name: &str) -> Result<Vec<u8>, FileError> {
+        document::open(self.context, self.folders, name)
+    }
+
     /// The plugins that stand in `element` with one of these tags, named by `<ref>` or written out.
     fn plugins(&self, element: &'a Element, tag: &str) -> Result<Vec<&'a Element>, ReadError> {
         let mut found = Vec::new();

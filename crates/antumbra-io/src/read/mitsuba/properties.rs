@@ -176,8 +176,7 @@ impl Element {
                     Err(self.at.error(format!("a colour of {} numbers; 1 or 3 are needed", other.len())))
                 }
             },
-            "spectrum" if text.contains(':') => self.pairs(text),
-            "float" | "spectrum" => self.numbers::<1>("value").map(|[g]| Rgb::grey(g as f32)),
+            "float" => self.numbers::<1>("value").map(|[g]| Rgb::grey(g as f32)),
             tag => {
                 Err(self.at.error(format!("<{tag}> is no colour: <rgb>, <spectrum> or <float> is needed")))
             }
@@ -193,29 +192,5 @@ impl Element {
             }
             _ => Err(self.at.error(format!("{}: a colour is written #rrggbb", show(text.as_bytes())))),
         }
-    }
-
-    /// Pairs of wavelength and value: their mean over the visible range counts, as grey.
-    fn pairs(&self, text: &str) -> Result<Rgb, ReadError> {
-        let mut points = Vec::new();
-        for pair in text.split([',', ' ', '\t', '\n', '\r']).filter(|w| !w.is_empty()) {
-            let (wavelength, value) = pair.split_once(':').unwrap_or((pair, ""));
-            points.push((self.one(wavelength)?, self.one(value)?));
-        }
-        let (mut area, mut width) = (0.0, 0.0);
-        for (a, b) in points.iter().zip(points.iter().skip(1)) {
-            if b.0 <= a.0 {
-                return Err(self.at.error("the wavelengths of a spectrum must grow"));
-            }
-            area += 0.5 * (a.1 + b.1) * (b.0 - a.0);
-            width += b.0 - a.0;
-        }
-        let mean = if width > 0.0 { area / width } else { points.first().map_or(0.0, |p| p.1) };
-        Ok(Rgb::grey(mean as f32))
-    }
-
-    /// It is a spectrum that varies with the wavelength.
-    pub fn is_spectral(&self) -> bool {
-        self.tag == "spectrum" && (self.attribute("value").contains(':') || self.given("filename").is_some())
     }
 }

@@ -1,4 +1,4 @@
-//! Sensors: perspective and thinlens.
+//! Sensors: perspective, thinlens, orthographic.
 
 use antumbra::scene::{Camera, Lens, Projection};
 use antumbra_math::{DVec3, real};
@@ -11,7 +11,8 @@ use crate::error::ReadError;
 type Make = for<'a> fn(&mut Reader<'a>, &'a Element, [u32; 2]) -> Result<(), ReadError>;
 
 /// Every sensor plugin that is read. To add one: a function and a line here.
-const SENSORS: [(&str, Make); 2] = [("perspective", perspective), ("thinlens", thinlens)];
+const SENSORS: [(&str, Make); 3] =
+    [("perspective", perspective), ("thinlens", thinlens), ("orthographic", orthographic)];
 
 impl<'a> Reader<'a> {
     /// Adds a camera; what its film asks for counts for the first one.
@@ -49,7 +50,23 @@ fn thinlens<'a>(reader: &mut Reader<'a>, element: &'a Element, size: [u32; 2]) -
     looking(reader, element, size, Some(Lens { radius, focus }))
 }
 
-/// Adds a camera that looks along z.
+/// Parallel rays: the picture is as wide as −1 to 1 along x and, times its height over its width, as high along y.
+fn orthographic<'a>(reader: &mut Reader<'a>, element: &'a Element, size: [u32; 2]) -> Result<(), ReadError> {
+    let world = reader.context.root.after(&element.transform("to_world")?);
+    let [wide, high] = [DVec3::X, DVec3::Y].map(|axis| world.vector(axis).length());
+    // Hand-written matrices keep four digits.
+    if (wide - high).abs() > 1e-4 * high {
+        let what = "its pixels are not square: drawn with square ones, as wide as asked for";
+        reader.said.warn(element.at.words(), what);
+    }
+    let height = 2.0 * wide / (f64::from(size[0]) / f64::from(size[1]));
+    if !(height > 0.0 && height.is_finite()) {
+        return Err(element.at.error("the sensor's transform is singular"));
+    }
+    placed(reader, element, size, (Projection::Orthographic { height }, None))
+}
+
+/// Adds a pinhole or a lens.
 fn looking<'a>(
     reader: &mut Reader<'a>,
     element: &'a Element,
@@ -58,6 +75,16 @@ fn looking<'a>(
 ) -> Result<(), ReadError> {
     let [w, h] = size.map(f64::from);
     let half = half_height(element, w, h)?;
+    placed(reader, element, size, (Projection::Perspective { vertical_fov: 2.0 * real::atan(half) }, lens))
+}
+
+/// Adds a camera that looks along z.
+fn placed<'a>(
+    reader: &mut Reader<'a>,
+    element: &'a Element,
+    size: [u32; 2],
+    (projection, lens): (Projection, Option<Lens>),
+) -> Result<(), ReadError> {
     for name in ["near_clip", "far_clip"] {
         if element.has(name) {
             reader.said.note(element.at.words(), format!("\"{name}\" is not read: nothing is cut off"));
@@ -81,7 +108,7 @@ fn looking<'a>(
         lens: lens.map(|l| Lens { radius: l.radius * scale, focus: l.focus * scale }),
         shift,
         mirrored: world.mirrors(),
-        projection: Projection::Perspective { vertical_fov: 2.0 * real::atan(half) },
+        projection,
         ..Camera::perspective(eye, eye + forward * far, 40.0)
     };
     reader.scene.cameras.push(camera.sized(size[0], size[1]));

@@ -9,7 +9,9 @@ use antumbra_math::Rgb;
 
 use super::Reader;
 use super::document::Element;
+use super::spectrum::is_plain;
 use crate::error::ReadError;
+use crate::read::spectrum::Of;
 use crate::read::texels;
 
 /// What a property is painted with.
@@ -35,7 +37,8 @@ pub(super) struct Known {
 type Make = for<'a> fn(&mut Reader<'a>, &'a Element) -> Result<Option<Texture>, ReadError>;
 
 /// Every texture plugin that is read. To add one: a function and a line here.
-const TEXTURES: [(&str, Make); 2] = [("bitmap", bitmap), ("checkerboard", checkerboard)];
+const TEXTURES: [(&str, Make); 3] =
+    [("bitmap", bitmap), ("checkerboard", checkerboard), ("mesh_attribute", mesh_attribute)];
 
 impl<'a> Reader<'a> {
     /// What the property `name` is painted with, or its default.
@@ -45,18 +48,39 @@ impl<'a> Reader<'a> {
         name: &str,
         default: f32,
     ) -> Result<Paint, ReadError> {
+        self.paint_of(element, name, default, Of::Matter)
+    }
+
+    fn paint_of(
+        &mut self,
+        element: &'a Element,
+        name: &str,
+        default: f32,
+        of: Of,
+    ) -> Result<Paint, ReadError> {
         let Some(value) = element.property(name) else { return Ok(Paint::Plain(Rgb::grey(default))) };
         let value = self.resolved(value)?;
-        if value.tag == "texture" {
+        if !is_plain(value) {
             let texture = self.texture(value)?;
             return Ok(texture.map_or(Paint::Plain(Rgb::grey(default)), Paint::Texture));
         }
-        self.plain(value).map(Paint::Plain)
+        self.plain(value, of).map(Paint::Plain)
     }
 
     /// The one colour of the property `name`: a texture counts by its mean, with a warning.
     pub(super) fn color(&mut self, element: &'a Element, name: &str, default: f32) -> Result<Rgb, ReadError> {
-        match self.paint(element, name, default)? {
+        self.color_of(element, name, default, Of::Matter)
+    }
+
+    /// The same of matter or of light.
+    pub(super) fn color_of(
+        &mut self,
+        element: &'a Element,
+        name: &str,
+        default: f32,
+        of: Of,
+    ) -> Result<Rgb, ReadError> {
+        match self.paint_of(element, name, default, of)? {
             Paint::Plain(color) => Ok(color),
             Paint::Texture(id) => {
                 let what = format!("a texture on \"{name}\" of {}: it counts by its mean", element.words());
@@ -74,7 +98,9 @@ impl<'a> Reader<'a> {
         default: f64,
     ) -> Result<f64, ReadError> {
         match element.property(name).map(|p| p.tag.as_str()) {
-            Some("texture" | "ref") => Ok(f64::from(self.color(element, name, default as f32)?.mean())),
+            Some("texture" | "ref" | "spectrum" | "rgb") => {
+                Ok(f64::from(self.color(element, name, default as f32)?.mean()))
+            }
             _ => element.float(name, default),
         }
     }
@@ -86,7 +112,8 @@ impl<'a> Reader<'a> {
         name: &str,
         default: f64,
     ) -> Result<(f32, Option<TextureId>), ReadError> {
-        let textured = matches!(element.property(name).map(|p| p.tag.as_str()), Some("texture" | "ref"));
+        let tag = element.property(name).map(|p| p.tag.as_str());
+        let textured = matches!(tag, Some("texture" | "ref" | "spectrum" | "rgb"));
         if !textured {
             return Ok((element.float(name, default)? as f32, None));
         }
@@ -127,14 +154,6 @@ impl<'a> Reader<'a> {
         }
     }
 
-    fn plain(&mut self, value: &Element) -> Result<Rgb, ReadError> {
-        if value.is_spectral() {
-            let what = "a spectrum over wavelengths: antumbra has three colours, it counts by its mean";
-            self.said.warn(value.at.words(), what);
-        }
-        value.rgb()
-    }
-
     /// The texture of an element, made once.
     pub(super) fn texture(&mut self, element: &'a Element) -> Result<Option<TextureId>, ReadError> {
         if let Some(known) = self.textures.textures.get(&std::ptr::from_ref(element)) {
@@ -162,7 +181,7 @@ impl<'a> Reader<'a> {
         if let Some(known) = self.textures.images.get(&key) {
             return Ok(known.clone());
         }
-        let opened = self.context.files.open(name).map_err(|e| e.to_string());
+        let opened = self.open(name).map_err(|e| e.to_string());
         let image = match opened.and_then(|bytes| texels::picture(&bytes, srgb, self.context)) {
             Ok(image) => Some(Arc::new(image)),
             Err(why) => {
@@ -204,4 +223,12 @@ fn checkerboard<'a>(reader: &mut Reader<'a>, element: &'a Element) -> Result<Opt
     let image = Image::new(2, 2, Texels::Float(vec![a, b, b, a]));
     let map = element.uv_transform()?;
     Ok(image.map(|image| Texture { nearest: true, map, ..Texture::new(Arc::new(image)) }))
+}
+
+/// `mesh_attribute` is read where it is the colour of a bsdf: elsewhere there is nothing that could hold it.
+fn mesh_attribute<'a>(reader: &mut Reader<'a>, element: &'a Element) -> Result<Option<Texture>, ReadError> {
+    element.pass_over(&["name", "scale"]);
+    let what = "colours of a mesh count as the colour of a bsdf alone: not read here";
+    reader.said.warn(element.at.words(), what);
+    Ok(None)
 }

@@ -1,6 +1,6 @@
 //! `<transform>`: its steps in order, as one affine map.
 
-use antumbra_math::{DMat3, DVec3, Transform, real};
+use antumbra_math::{DMat3, DVec3, Transform};
 
 use super::document::Element;
 use crate::error::ReadError;
@@ -49,13 +49,13 @@ impl Element {
                     [s] => DVec3::splat(s),
                     _ => self.xyz(1.0)?,
                 };
-                Ok(Transform { linear: DMat3::from_diagonal(by), translation: DVec3::ZERO })
+                Ok(Transform::linear(DMat3::from_diagonal(by)))
             }
             "rotate" => {
                 let [degrees] = self.numbers::<1>("angle")?;
                 let axis = self.xyz(0.0)?.try_normalize();
                 let axis = axis.ok_or_else(|| self.at.error("a rotation about the axis 0, 0, 0"))?;
-                Ok(Transform { linear: about(axis, degrees.to_radians()), translation: DVec3::ZERO })
+                Ok(Transform::rotation(axis, degrees.to_radians()))
             }
             "matrix" => self.matrix(),
             "lookat" => self.look_at(),
@@ -71,10 +71,7 @@ impl Element {
         let m = self.list("value")?;
         let row = |i: usize, n: usize| DVec3::new(m[i], m[i + n], m[i + 2 * n]);
         match m.len() {
-            9 => Ok(Transform {
-                linear: DMat3::from_cols(row(0, 3), row(1, 3), row(2, 3)),
-                translation: DVec3::ZERO,
-            }),
+            9 => Ok(Transform::linear(DMat3::from_cols(row(0, 3), row(1, 3), row(2, 3)))),
             16 if m[12..15] == [0.0; 3] && m[15] == 1.0 => Ok(Transform {
                 linear: DMat3::from_cols(row(0, 4), row(1, 4), row(2, 4)),
                 translation: row(3, 4),
@@ -95,15 +92,7 @@ impl Element {
             None if forward.y.abs() < 0.999 => DVec3::Y,
             None => DVec3::Z,
         };
-        let left = up.cross(forward).try_normalize();
-        let left = left.ok_or_else(|| self.at.error("up points along the view: another one is needed"))?;
-        Ok(Transform { linear: DMat3::from_cols(left, forward.cross(left), forward), translation: origin })
+        let look = Transform::looking(origin, forward, up);
+        look.ok_or_else(|| self.at.error("up points along the view: another one is needed"))
     }
-}
-
-/// A rotation (Rodrigues).
-fn about(axis: DVec3, angle: f64) -> DMat3 {
-    let (s, c) = (real::sin(angle), real::cos(angle));
-    let turn = |v: DVec3| v * c + axis.cross(v) * s + axis * (axis.dot(v) * (1.0 - c));
-    DMat3::from_cols(turn(DVec3::X), turn(DVec3::Y), turn(DVec3::Z))
 }

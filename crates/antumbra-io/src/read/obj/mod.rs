@@ -19,7 +19,7 @@ use crate::error::ReadError;
 use crate::srgb;
 
 /// Where the normal of a corner comes from: corners with the same origin share a vertex.
-#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, PartialEq, Eq)]
 enum Normal {
     /// The file's.
     Given(u32),
@@ -29,6 +29,43 @@ enum Normal {
     Flat(u32),
     /// The mesh has none.
     None,
+}
+
+/// How many vertices of one position are looked at: beyond, a copy costs less than looking for it.
+const NEAR: usize = 64;
+
+/// The vertices that a mesh has for each position of the file, each with the one before it.
+struct Vertices {
+    last: Vec<u32>,
+    made: Vec<(Corner, Normal, u32)>,
+}
+
+impl Vertices {
+    fn new(positions: usize) -> Vertices {
+        Vertices { last: vec![NONE; positions], made: Vec::new() }
+    }
+
+    /// The number of a corner's vertex, and whether it is new.
+    fn of(&mut self, c: &Corner, normal: Normal) -> (u32, bool) {
+        let last = &mut self.last[c.v as usize];
+        let mut at = *last;
+        for _ in 0..NEAR {
+            let Some((corner, its, before)) = self.made.get(at as usize) else { break };
+            if (corner.vt, *its) == (c.vt, normal) {
+                return (at, false);
+            }
+            at = *before;
+        }
+        let new = self.made.len() as u32;
+        self.made.push((*c, normal, *last));
+        *last = new;
+        (new, true)
+    }
+
+    /// Forgets them all, for the next mesh.
+    fn clear(&mut self) {
+        self.made.drain(..).for_each(|(c, ..)| self.last[c.v as usize] = NONE);
+    }
 }
 
 /// Sum of the vector areas of the faces about a position, in a smoothing group.
@@ -49,9 +86,10 @@ pub(super) fn read(bytes: &[u8], context: &Context) -> Result<SceneBuilder, Read
     obj.libraries.iter().for_each(|line| libraries.load(line, context, &mut said));
     let smooth = smooth(&obj);
     let mut cutter = Triangulator::new();
+    let mut vertices = Vertices::new(obj.positions.len());
     let mut materials: HashMap<&str, MaterialId> = HashMap::new();
     for (group, material, faces) in parts(&obj) {
-        let mesh = mesh(&obj, group, &faces, &smooth, &mut cutter);
+        let mesh = mesh(&obj, group, &faces, &smooth, (&mut cutter, &mut vertices));
         let id = *materials.entry(material).or_insert_with(|| {
             let look = libraries.material(material, !obj.colors.is_empty(), context, &mut scene, &mut said);
             scene.material(look)
@@ -84,7 +122,8 @@ pub(super) fn mesh_of(bytes: &[u8], _: &Context, said: &mut Counted) -> Result<M
     obj.faces.iter_mut().for_each(|face| face.smoothing = 0);
     let mut cutter = Triangulator::new();
     let all: Vec<usize> = (0..obj.faces.len()).collect();
-    let mesh = mesh(&obj, "", &all, &Smooth::new(), &mut cutter);
+    let mut vertices = Vertices::new(obj.positions.len());
+    let mesh = mesh(&obj, "", &all, &Smooth::new(), (&mut cutter, &mut vertices));
     if cutter.gave_up() {
         said.warn("faces", super::INTRICATE);
     }
@@ -142,13 +181,19 @@ fn smooth(obj: &Obj) -> Smooth {
 }
 
 /// The mesh of some faces, with vertices of its own.
-fn mesh(obj: &Obj, name: &str, faces: &[usize], smooth: &Smooth, cutter: &mut Triangulator) -> Mesh {
+fn mesh(
+    obj: &Obj,
+    name: &str,
+    faces: &[usize],
+    smooth: &Smooth,
+    (cutter, vertices): (&mut Triangulator, &mut Vertices),
+) -> Mesh {
     let face = |i: &usize| &obj.faces[*i];
     let with_normals = faces.iter().map(face).any(|f| f.smoothing > 0 || has_normals(corners(obj, f)));
     let with_uvs = faces.iter().map(face).flat_map(|f| corners(obj, f)).any(|c| c.vt != NONE);
     let mut mesh = Mesh { name: name.into(), ..Mesh::default() };
     let (mut normals, mut uvs, mut colors) = (Vec::new(), Vec::new(), Vec::new());
-    let mut known: HashMap<(u32, u32, Normal), u32> = HashMap::new();
+    vertices.clear();
     let mut polygon: Vec<u32> = Vec::new();
     for index in faces {
         let face = face(index);
@@ -162,7 +207,8 @@ fn mesh(obj: &Obj, name: &str, faces: &[usize], smooth: &Smooth, cutter: &mut Tr
         let origins = corners.iter().map(origin);
         polygon.clear();
         for (c, origin) in corners.iter().zip(origins) {
-            let vertex = known.entry((c.v, c.vt, origin)).or_insert_with(|| {
+            let (vertex, is_new) = vertices.of(c, origin);
+            if is_new {
                 mesh.triangles.vertices.push(obj.positions[c.v as usize]);
                 let normal = match origin {
                     Normal::Given(vn) => obj.normals[vn as usize],
@@ -173,9 +219,8 @@ fn mesh(obj: &Obj, name: &str, faces: &[usize], smooth: &Smooth, cutter: &mut Tr
                 normals.push(normal);
                 uvs.push(obj.uvs.get(c.vt as usize).copied().unwrap_or_default());
                 colors.extend(obj.colors.get(c.v as usize).map(screen_color));
-                mesh.triangles.vertices.len() as u32 - 1
-            });
-            polygon.push(*vertex);
+            }
+            polygon.push(vertex);
         }
         let place = |i: usize| obj.positions[corners[i].v as usize];
         let triangles = &mut mesh.triangles.indices;

@@ -1,5 +1,7 @@
 //! The directives of a pbrt file.
 
+use std::rc::Rc;
+
 use antumbra_math::Transform;
 
 use super::text::{At, Text};
@@ -60,6 +62,9 @@ pub(super) const DIRECTIVES: [(&str, Act); 41] = [
 
 /// Attributes within attributes.
 const MOST_KEPT: usize = 4096;
+
+/// Parameters that `Attribute` sets.
+const MOST_DEFAULTS: usize = 256;
 
 impl Reader<'_> {
     /// Keeps the state until `bring_back`.
@@ -207,7 +212,11 @@ fn attribute(reader: &mut Reader, at: &At) -> Result<(), ReadError> {
     if !["shape", "light", "material", "medium", "texture"].contains(&target.as_str()) {
         return Err(p.error("one of shape, light, material, medium, texture is needed"));
     }
-    reader.state.defaults.extend(p.into_given().into_iter().map(|given| (target.clone(), given)));
+    let defaults = Rc::make_mut(&mut reader.state.defaults);
+    if defaults.len() + p.count_given() > MOST_DEFAULTS {
+        return Err(p.error(format!("more than {MOST_DEFAULTS} parameters are set for what follows")));
+    }
+    defaults.extend(p.into_given().into_iter().map(|given| (target.clone(), given)));
     Ok(())
 }
 
@@ -236,7 +245,7 @@ fn include(reader: &mut Reader, at: &At) -> Result<(), ReadError> {
     }
     let bytes = reader.open(&name);
     let bytes = bytes.map_err(|why| at.error(format!("the file \"{name}\": {why}")))?;
-    reader.file(Text::new(&name, &bytes))
+    reader.file(Text::new(&name, bytes.into()))
 }
 
 /// The same, and what it changes for shapes ends with it.

@@ -205,22 +205,20 @@ const MOST: u32 = 2048;
 fn lat_long(square: &Image) -> Option<Image> {
     let height = (ROWS * square.height).min(MOST).max(square.height);
     let width = 2 * height;
-    let at = |row: f64, column: f64| {
-        let (theta, phi) =
-            (real::PI as f64 * row / f64::from(height), 2.0 * real::PI as f64 * column / f64::from(width));
-        let sin = real::sin(theta);
-        let place = to_square(DVec3::new(real::sin(phi) * sin, -real::cos(phi) * sin, real::cos(theta)));
-        let texel = |x: f64, n: u32| ((x * f64::from(n)) as u32).min(n - 1);
-        square.texel(texel(place[0], square.width), texel(place[1], square.height))
-    };
+    let part = |i: u32, n: u32, whole: f64| whole * (f64::from(i) + 0.5) / f64::from(n * LOOKED);
+    let rows: Vec<_> =
+        (0..height * LOOKED).map(|i| Latitude::at(part(i, height, std::f64::consts::PI))).collect();
+    let columns: Vec<_> =
+        (0..width * LOOKED).map(|i| Longitude::at(part(i, width, std::f64::consts::TAU))).collect();
+    let texel = |x: f64, n: u32| ((x * f64::from(n)) as u32).min(n - 1);
     let mut texels = Vec::with_capacity(width as usize * height as usize);
-    for row in 0..height {
-        for column in 0..width {
+    for rows in rows.chunks_exact(LOOKED as usize) {
+        for columns in columns.chunks_exact(LOOKED as usize) {
             let mut sum = [0.0; 3];
-            for k in 0..LOOKED * LOOKED {
-                let part = |i: u32| (f64::from(i) + 0.5) / f64::from(LOOKED);
-                let texel = at(f64::from(row) + part(k / LOOKED), f64::from(column) + part(k % LOOKED));
-                (0..3).for_each(|c| sum[c] += texel[c]);
+            for (row, column) in rows.iter().flat_map(|row| columns.iter().map(move |c| (row, c))) {
+                let [u, v] = to_square(row, column);
+                let found = square.texel(texel(u, square.width), texel(v, square.height));
+                (0..3).for_each(|c| sum[c] += found[c]);
             }
             texels.push(sum.map(|s| s / (LOOKED * LOOKED) as f32));
         }
@@ -228,17 +226,35 @@ fn lat_long(square: &Image) -> Option<Image> {
     Image::new(width, height, Texels::Float(texels))
 }
 
+/// How far from the pole: √(1 − |cos θ|), and whether below the horizon.
+struct Latitude(f64, bool);
+
+impl Latitude {
+    fn at(theta: f64) -> Latitude {
+        let cos = real::cos(theta);
+        Latitude((1.0 - cos.abs()).max(0.0).sqrt(), cos < 0.0)
+    }
+}
+
+/// Where in its quarter turn, from 0 at its x to 1 at its y, and the signs of both.
+struct Longitude(f64, [f64; 2]);
+
+impl Longitude {
+    /// Of the direction (sin φ, −cos φ).
+    fn at(phi: f64) -> Longitude {
+        let (x, y) = (real::sin(phi), -real::cos(phi));
+        Longitude(real::atan2(y.abs(), x.abs()) * 2.0 / std::f64::consts::PI, [x, y])
+    }
+}
+
 /// The equal-area octahedral map of the sphere onto the unit square (Clarberg 2008, "Fast Equal-Area Mapping of the
 /// (Hemi)Sphere using SIMD").
-fn to_square(d: DVec3) -> [f64; 2] {
-    let [x, y, z] = d.abs().to_array();
-    let r = (1.0 - z).max(0.0).sqrt();
-    let phi = if x.max(y) == 0.0 { 0.0 } else { real::atan2(y, x) * 2.0 / std::f64::consts::PI };
-    let (mut u, mut v) = (r - phi * r, phi * r);
-    if d.z < 0.0 {
+fn to_square(Latitude(r, below): &Latitude, Longitude(part, signs): &Longitude) -> [f64; 2] {
+    let (mut u, mut v) = (r - part * r, part * r);
+    if *below {
         (u, v) = (1.0 - v, 1.0 - u);
     }
-    [u.copysign(d.x), v.copysign(d.y)].map(|c| 0.5 * (c + 1.0))
+    [0.5 * (u.copysign(signs[0]) + 1.0), 0.5 * (v.copysign(signs[1]) + 1.0)]
 }
 
 /// ∫ L cos θ over the hemisphere about `up`, by midpoints.
@@ -281,7 +297,9 @@ mod tests {
     fn the_square_and_the_sphere_go_both_ways() {
         for i in 0..400 {
             let place = [f64::from(i % 20), f64::from(i / 20)].map(|x| (x + 0.37) / 20.0);
-            let back = to_square(to_sphere(place));
+            let d = to_sphere(place);
+            let (theta, phi) = (real::acos(d.z), real::atan2(d.x, -d.y));
+            let back = to_square(&Latitude::at(theta), &Longitude::at(phi));
             assert!((0..2).all(|c| (back[c] - place[c]).abs() < 1e-12), "{place:?} {back:?}");
         }
     }

@@ -11,8 +11,8 @@ use super::spectrum::{Of, glass};
 use super::text::Values;
 use super::texture::Paint;
 use crate::error::ReadError;
+use crate::read::GREY;
 use crate::read::text::show;
-use crate::read::{GREY, texels};
 
 /// Makes a material.
 type Make = fn(&mut Reader, &Parameters) -> Result<Material, ReadError>;
@@ -68,19 +68,13 @@ impl Reader<'_> {
                 material.bump = Some(BumpMap { texture, scale: heights.factor.0[0] });
             }
         }
-        if let Some(name) = p.text("normalmap")? {
-            let decoded = self.open(name).and_then(|bytes| texels::picture(&bytes, false, self.context));
-            match decoded {
-                Ok(image) => {
-                    // v = 0 is the lower edge, as of every texture.
-                    let map = [1.0, 0.0, 0.0, 0.0, -1.0, 1.0];
-                    let texture = self.scene.texture(Texture { map, ..Texture::new(image.into()) });
-                    material.normal = Some(NormalMap { texture, scale: 1.0 });
-                }
-                Err(why) => {
-                    self.said.warn(p.at.words(), format!("the picture \"{name}\": {why}: drawn without it"))
-                }
-            }
+        if let Some(name) = p.text("normalmap")?
+            && let Some(image) = self.picture(p, name, false, false)
+        {
+            // v = 0 is the lower edge, as of every texture.
+            let map = [1.0, 0.0, 0.0, 0.0, -1.0, 1.0];
+            let texture = self.intern(&Texture { map, ..Texture::new(image) });
+            material.normal = Some(NormalMap { texture, scale: 1.0 });
         }
         Ok(material)
     }
@@ -103,6 +97,21 @@ impl Reader<'_> {
         material
     }
 
+    /// The facets of one width along each tangent: textures count by their means. `None`: polished.
+    fn even_facets(
+        &mut self,
+        p: &Parameters,
+        prefix: &str,
+        default: f32,
+    ) -> Result<Option<Facets>, ReadError> {
+        let alpha = remapped(p)?;
+        let mean = self.scalar(p, &format!("{prefix}roughness"), default)?;
+        let [u, v] = ["uroughness", "vroughness"].map(|name| format!("{prefix}{name}"));
+        let [u, v] = [self.scalar(p, &u, mean)?, self.scalar(p, &v, mean)?].map(alpha);
+        // As smooth as pbrt takes for polished (its EffectivelySmooth).
+        Ok((u.max(v) >= 1e-3).then(|| Facets::new(u, v)))
+    }
+
     /// The facets of `roughness`, or of `uroughness` and `vroughness` (of an interface, with its prefix): α = √roughness
     /// unless the file says otherwise. `None`: polished.
     fn facets(
@@ -111,22 +120,17 @@ impl Reader<'_> {
         prefix: &str,
         default: f32,
     ) -> Result<Option<(Facets, Option<Roughness>)>, ReadError> {
-        let remap = p.boolean("remaproughness", true)?;
-        let alpha = |x: f32| if remap { x.max(0.0).sqrt() } else { x.max(0.0) };
         let both = self.number(p, &format!("{prefix}roughness"), default)?;
         let [u, v] = ["uroughness", "vroughness"].map(|name| format!("{prefix}{name}"));
         if let Some(texture) = both.image.clone().filter(|_| !p.has(&u) && !p.has(&v)) {
             // Texels that are α, and a factor of 1.
             let paint = Paint { factor: both.factor, image: Some(texture) };
-            let paint = self.each(&p.at, &paint, alpha)?;
+            let paint = self.each(&p.at, &paint, remapped(p)?)?;
             let Some(texture) = paint.image else { return Ok(None) };
             let channel = Channel { texture: self.intern(&texture), component: 0 };
             return Ok(Some((Facets::isotropic(1.0), Some(Roughness::new(channel, false)))));
         }
-        let mean = both.mean().0[0];
-        let [u, v] = [self.scalar(p, &u, mean)?, self.scalar(p, &v, mean)?].map(alpha);
-        // As smooth as pbrt takes for polished (its EffectivelySmooth).
-        Ok((u.max(v) >= 1e-3).then(|| (Facets::new(u, v), None)))
+        Ok(self.even_facets(p, prefix, default)?.map(|facets| (facets, None)))
     }
 
     /// An index of refraction, by number or by glass.
@@ -187,6 +191,12 @@ impl Reader<'_> {
     }
 }
 
+/// Roughness → α: its root, unless the file says otherwise.
+fn remapped(p: &Parameters) -> Result<impl Fn(f32) -> f32 + use<>, ReadError> {
+    let remap = p.boolean("remaproughness", true)?;
+    Ok(move |x: f32| if remap { x.max(0.0).sqrt() } else { x.max(0.0) })
+}
+
 /// ρ/π.
 fn diffuse(reader: &mut Reader, p: &Parameters) -> Result<Material, ReadError> {
     reader.tinted(Material::diffuse(Rgb::WHITE), p, "reflectance", 0.5)
@@ -216,12 +226,22 @@ fn conductor(reader: &mut Reader, p: &Parameters) -> Result<Material, ReadError>
     metallic(reader, p, "")
 }
 
-/// The metal under the coat alone.
+/// Metal under a clear coat. What lies between them takes no light here.
 fn coatedconductor(reader: &mut Reader, p: &Parameters) -> Result<Material, ReadError> {
     within_the_coat(reader, p);
-    p.pass_over(&["interface.eta", "interface.roughness", "interface.uroughness", "interface.vroughness"]);
-    reader.said.warn(p.at.words(), "the coat of a coatedconductor is left out: drawn as its metal");
-    metallic(reader, p, "conductor.")
+    let eta = reader.index(p, "interface.eta")?;
+    let coat = reader.even_facets(p, "interface.", 0.0)?;
+    let facets = reader.even_facets(p, "conductor.", 0.0)?;
+    if eta < 1.0 {
+        let what = format!("\"interface.eta\" is {eta}: a coat that is thinner than air is drawn as none");
+        reader.said.warn(p.at.words(), what);
+    }
+    if coat.is_some() {
+        let what = "the rough coat of a coatedconductor is drawn by a model: it gives back too much light, the more the \
+                    rougher it is (0.16 of all at a roughness alpha of 0.1, up to 0.45 at 1)";
+        reader.said.warn(p.at.words(), what);
+    }
+    Ok(Material::coated_conductor(eta, coat, reader.metal(p, "conductor.")?, facets))
 }
 
 fn metallic(reader: &mut Reader, p: &Parameters, prefix: &str) -> Result<Material, ReadError> {
@@ -246,15 +266,22 @@ fn thindielectric(reader: &mut Reader, p: &Parameters) -> Result<Material, ReadE
     Ok(Material::thin_dielectric(reader.index(p, "eta")?, None))
 }
 
-/// What it reflects; what it lets through is left out.
+/// ρ/π on the side of the light, τ/π on the other.
 fn diffusetransmission(reader: &mut Reader, p: &Parameters) -> Result<Material, ReadError> {
-    let what = "light through a diffusetransmission is left out: drawn by what it reflects";
-    reader.said.warn(p.at.words(), what);
-    p.pass_over(&["transmittance"]);
     let scale = p.float("scale", 1.0)? as f32;
-    let paint = reader.paint(p, "reflectance", 0.25)?;
-    let paint = Paint { factor: paint.factor * scale, ..paint };
-    Ok(reader.in_colour(Material::diffuse(Rgb::WHITE), &paint))
+    let paint = |reader: &mut Reader, name: &str| {
+        let paint = reader.paint(p, name, 0.25)?;
+        Ok::<_, ReadError>(Paint { factor: paint.factor * scale, ..paint })
+    };
+    let (reflectance, transmittance) = (paint(reader, "reflectance")?, paint(reader, "transmittance")?);
+    if (reflectance.mean() + transmittance.mean()).max() > 1.0 + 1e-4 {
+        let what = "a diffusetransmission gives back more light than it gets: its two shares are scaled down";
+        reader.said.warn(p.at.words(), what);
+    }
+    let mut material = Material::diffuse_transmission(Rgb::WHITE, Rgb::WHITE);
+    material.surface.set_gloss(transmittance.factor);
+    material.gloss = transmittance.image.as_ref().map(|texture| reader.intern(texture));
+    Ok(reader.in_colour(material, &reflectance))
 }
 
 /// (1 − amount) of the first material, amount of the second.

@@ -14,8 +14,10 @@ mod text;
 mod texture;
 mod transform;
 
+use std::borrow::Cow;
 use std::collections::HashMap;
 use std::io::Read;
+use std::rc::Rc;
 
 use antumbra::scene::{Level, MaterialId, SceneBuilder};
 use antumbra_math::Transform;
@@ -40,14 +42,14 @@ struct State {
     /// What shapes give off.
     area: Option<light::Area>,
     /// Parameters that `Attribute` adds to those of shapes, lights, materials and textures.
-    defaults: Vec<(String, Parameter)>,
+    defaults: Rc<Vec<(String, Parameter)>>,
 }
 
 /// The work in progress.
 struct Reader<'a> {
     context: &'a Context<'a>,
     /// The files that are open, the one being read last.
-    open: Vec<Text>,
+    open: Vec<Text<'a>>,
     /// `WorldBegin` was read.
     in_world: bool,
     state: State,
@@ -66,6 +68,7 @@ pub(super) fn read(bytes: &[u8], context: &Context) -> Result<SceneBuilder, Read
     if bytes.is_empty() {
         return Err(ReadError::new("", "the file is empty (0 bytes)"));
     }
+    let whole = unzipped(bytes.into(), context).map_err(|why| ReadError::new("", why))?;
     let mut reader = Reader {
         context,
         open: Vec::new(),
@@ -76,7 +79,7 @@ pub(super) fn read(bytes: &[u8], context: &Context) -> Result<SceneBuilder, Read
             reverse: false,
             material: None,
             area: None,
-            defaults: Vec::new(),
+            defaults: Rc::default(),
         },
         kept: Vec::new(),
         spaces: HashMap::new(),
@@ -87,21 +90,30 @@ pub(super) fn read(bytes: &[u8], context: &Context) -> Result<SceneBuilder, Read
         scene: SceneBuilder { source: "pbrt-v4".into(), ..SceneBuilder::default() },
         said: Counted::default(),
     };
-    reader.file(Text::new("", &unzipped(bytes.to_vec(), context).map_err(|why| ReadError::new("", why))?))?;
+    reader.file(Text::new("", whole))?;
     reader.finish()
 }
 
 /// Files within files.
 const DEEPEST: usize = 32;
 
+/// Bytes of a directive with its plugin, and of sixteen of its values, for the account of memory.
+const ROOM: u64 = 384;
+
+/// What opening a file counts at least [bytes].
+const OPENED: u64 = 4096;
+
+/// How well text packs, at most.
+const PACKED: u64 = 16;
+
 /// What to do with a file of the version before.
 fn of_v3(e: ReadError) -> ReadError {
     e.hint("antumbra reads pbrt-v4. `pbrt --upgrade old.pbrt > new.pbrt` of pbrt-v4 converts.")
 }
 
-impl Reader<'_> {
+impl<'a> Reader<'a> {
     /// Follows the directives of a file to its end.
-    fn file(&mut self, text: Text) -> Result<(), ReadError> {
+    fn file(&mut self, text: Text<'a>) -> Result<(), ReadError> {
         self.open.push(text);
         loop {
             let text = self.text()?;
@@ -120,7 +132,7 @@ impl Reader<'_> {
     }
 
     /// The file being read.
-    fn text(&mut self) -> Result<&mut Text, ReadError> {
+    fn text(&mut self) -> Result<&mut Text<'a>, ReadError> {
         self.open.last_mut().ok_or_else(|| ReadError::new("", "the file ended"))
     }
 
@@ -129,7 +141,9 @@ impl Reader<'_> {
         let text = self.text()?;
         let plugin = text.string(directive)?;
         let words = format!("{directive} \"{plugin}\"");
-        Ok((plugin, Parameters::read(text, at.clone(), words)?))
+        let p = Parameters::read(text, at.clone(), words)?;
+        self.context.take(1 + p.length() as u64 / 16, ROOM).map_err(|why| p.error(why))?;
+        Ok((plugin, p))
     }
 
     /// Object → our world.
@@ -147,7 +161,11 @@ impl Reader<'_> {
     /// The bytes of a file beside, unpacked if it is gzipped.
     fn open(&self, name: &str) -> Result<Vec<u8>, String> {
         let bytes = self.context.files.open(name).map_err(|e| e.to_string())?;
-        unzipped(bytes, self.context)
+        self.context.grant_file(name, bytes.len() as u64);
+        let whole = unzipped(bytes.into(), self.context)?;
+        let again = self.context.take((whole.len() as u64).max(OPENED), 1);
+        again.map_err(|_| "it is asked for again and again, beyond what the scene's files hold")?;
+        Ok(whole.into_owned())
     }
 
     /// Says what was not looked at.
@@ -189,8 +207,7 @@ impl Reader<'_> {
 }
 
 /// What a gzipped file holds, within the limits; other bytes as they are.
-fn unzipped(bytes: Vec<u8>, context: &Context) -> Result<Vec<u8>, String> {
-    context.grant(bytes.len() as u64);
+fn unzipped<'a>(bytes: Cow<'a, [u8]>, context: &Context) -> Result<Cow<'a, [u8]>, String> {
     if !bytes.starts_with(&[0x1f, 0x8b]) {
         return Ok(bytes);
     }
@@ -203,6 +220,7 @@ fn unzipped(bytes: Vec<u8>, context: &Context) -> Result<Vec<u8>, String> {
     if whole.len() as u64 > most {
         return Err(format!("unpacked it has more than {most} bytes"));
     }
-    context.grant(whole.len() as u64);
-    Ok(whole)
+    // Text packs well, and what it makes is in proportion to it; beyond that it is no text that people write.
+    context.grant((whole.len() as u64).min(PACKED * bytes.len() as u64));
+    Ok(whole.into())
 }

@@ -69,9 +69,19 @@ impl Parameters {
         self
     }
 
+    /// How many there are.
+    pub fn count_given(&self) -> usize {
+        self.given.len()
+    }
+
     /// Gives them away, as defaults for others.
     pub fn into_given(self) -> Vec<Parameter> {
         self.given
+    }
+
+    /// How many values all have together.
+    pub fn length(&self) -> usize {
+        self.given.iter().map(|p| p.values.len()).sum()
     }
 
     /// It is there, read or not.

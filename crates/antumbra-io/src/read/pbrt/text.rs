@@ -1,9 +1,10 @@
 //! The words of a pbrt file: directives, strings in quotes, lists of values.
 
+use std::borrow::Cow;
 use std::rc::Rc;
 
 use crate::error::ReadError;
-use crate::read::text::{plain, show};
+use crate::read::text::{double, plain, show};
 
 /// Where something stands.
 #[derive(Clone, Debug)]
@@ -38,18 +39,38 @@ pub(super) enum Values {
     Truths(Vec<bool>),
 }
 
+impl Values {
+    /// How many there are.
+    pub fn len(&self) -> usize {
+        match self {
+            Values::Numbers(all) => all.len(),
+            Values::Texts(all) => all.len(),
+            Values::Truths(all) => all.len(),
+        }
+    }
+}
+
 /// A file that is being read.
-pub(super) struct Text {
+pub(super) struct Text<'a> {
     name: Rc<str>,
-    bytes: Vec<u8>,
+    bytes: Cow<'a, [u8]>,
     next: usize,
     line: u32,
 }
 
-impl Text {
+impl<'a> Text<'a> {
     /// From the first byte on.
-    pub fn new(name: &str, bytes: &[u8]) -> Text {
-        Text { name: name.into(), bytes: plain(bytes).into_owned(), next: 0, line: 1 }
+    pub fn new(name: &str, bytes: Cow<'a, [u8]>) -> Text<'a> {
+        let bytes = match bytes {
+            Cow::Borrowed(bytes) => plain(bytes),
+            // A mark of three bytes is passed over below.
+            Cow::Owned(bytes) => match plain(&bytes) {
+                Cow::Borrowed(_) => Cow::Owned(bytes),
+                Cow::Owned(other) => Cow::Owned(other),
+            },
+        };
+        let next = if bytes.starts_with(&[0xef, 0xbb, 0xbf]) { 3 } else { 0 };
+        Text { name: name.into(), bytes, next, line: 1 }
     }
 
     /// Where the next word stands.
@@ -161,8 +182,7 @@ impl Text {
         }
         let at = At { file: self.name.clone(), line: self.line };
         let word = self.bare();
-        let read = std::str::from_utf8(word).ok().and_then(|word| word.parse().ok());
-        match read {
+        match double(word) {
             Some(number) => Ok(Some(number)),
             None => Err(at.error(format!("{} is no number", show(word)))),
         }

@@ -205,11 +205,16 @@ impl Reader<'_> {
 
     /// A picture beside the scene, decoded once; `None` after a warning if it cannot be read. For a number, its three
     /// colours count by their mean.
-    fn image(&mut self, p: &Parameters, srgb: bool, number: bool) -> Result<Option<Arc<Image>>, ReadError> {
-        let Some(name) = p.text("filename")? else { return Err(p.error("\"string filename\" is missing")) };
+    pub(super) fn picture(
+        &mut self,
+        p: &Parameters,
+        name: &str,
+        srgb: bool,
+        number: bool,
+    ) -> Option<Arc<Image>> {
         let key = (name.to_string(), srgb, number);
         if let Some(known) = self.textures.images.get(&key) {
-            return Ok(known.clone());
+            return known.clone();
         }
         let decoded = self.open(name).and_then(|bytes| texels::picture(&bytes, srgb, self.context));
         let decoded = decoded.and_then(|image| if number { grey(&image, self.context) } else { Ok(image) });
@@ -217,7 +222,7 @@ impl Reader<'_> {
             self.said.warn(p.at.words(), format!("the picture \"{name}\": {why}: drawn without it"));
         });
         self.textures.images.insert(key, image.clone().ok());
-        Ok(image.ok())
+        image.ok()
     }
 }
 
@@ -266,7 +271,8 @@ fn imagemap(reader: &mut Reader, p: &Parameters, number: bool) -> Result<Paint, 
     p.pass_over(&["maxanisotropy"]);
     let nearest = p.choice("filter", &["bilinear", "trilinear", "ewa", "point"])? == "point";
     let (factor, invert) = (p.float("scale", 1.0)? as f32, p.boolean("invert", false)?);
-    let Some(image) = reader.image(p, encoding == "sRGB", number)? else {
+    let Some(name) = p.text("filename")? else { return Err(p.error("\"string filename\" is missing")) };
+    let Some(image) = reader.picture(p, name, encoding == "sRGB", number) else {
         return Ok(Paint::plain(Rgb::grey(GREY)));
     };
     let texture = Texture { wrap: [wrap; 2], nearest, map, ..Texture::new(image) };

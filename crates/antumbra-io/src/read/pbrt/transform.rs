@@ -1,6 +1,6 @@
 //! The current transform: what moves it, and the places that it remembers.
 
-use antumbra_math::{DMat3, DVec3, Transform, real};
+use antumbra_math::{DMat3, DVec3, Transform};
 
 use super::Reader;
 use super::text::At;
@@ -36,17 +36,15 @@ pub(super) fn translate(reader: &mut Reader, at: &At) -> Result<(), ReadError> {
 
 pub(super) fn scale(reader: &mut Reader, at: &At) -> Result<(), ReadError> {
     let by = DVec3::from(reader.text()?.numbers::<3>("Scale")?);
-    reader.moved(at, linear(DMat3::from_diagonal(by)))
+    reader.moved(at, Transform::linear(DMat3::from_diagonal(by)))
 }
 
-/// By degrees about an axis (Rodrigues).
+/// By degrees about an axis.
 pub(super) fn rotate(reader: &mut Reader, at: &At) -> Result<(), ReadError> {
     let [degrees, x, y, z] = reader.text()?.numbers::<4>("Rotate")?;
     let axis = DVec3::new(x, y, z).try_normalize();
     let axis = axis.ok_or_else(|| at.error("a rotation about the axis 0, 0, 0"))?;
-    let (s, c) = (real::sin(degrees.to_radians()), real::cos(degrees.to_radians()));
-    let turn = |v: DVec3| v * c + axis.cross(v) * s + axis * (axis.dot(v) * (1.0 - c));
-    reader.moved(at, linear(DMat3::from_cols(turn(DVec3::X), turn(DVec3::Y), turn(DVec3::Z))))
+    reader.moved(at, Transform::rotation(axis, degrees.to_radians()))
 }
 
 /// World → camera: eye, the point looked at, up; x to the right of who looks along z in pbrt's left-handed world.
@@ -55,10 +53,8 @@ pub(super) fn look_at(reader: &mut Reader, at: &At) -> Result<(), ReadError> {
     let (eye, look, up) = (DVec3::new(a, b, c), DVec3::new(d, e, f), DVec3::new(g, h, i));
     let forward = (look - eye).try_normalize();
     let forward = forward.ok_or_else(|| at.error("eye and the point looked at are the same"))?;
-    let right = up.cross(forward).try_normalize();
-    let right = right.ok_or_else(|| at.error("up points along the view: another one is needed"))?;
-    let camera =
-        Transform { linear: DMat3::from_cols(right, forward.cross(right), forward), translation: eye };
+    let camera = Transform::looking(eye, forward, up);
+    let camera = camera.ok_or_else(|| at.error("up points along the view: another one is needed"))?;
     let step = camera.inverse().ok_or_else(|| at.error("the transform is singular"))?;
     reader.moved(at, step)
 }
@@ -110,8 +106,4 @@ pub(super) fn active(reader: &mut Reader, at: &At) -> Result<(), ReadError> {
         _ => return Err(at.error(format!("{} is none of All, StartTime, EndTime", show(word.as_bytes())))),
     };
     Ok(())
-}
-
-fn linear(linear: DMat3) -> Transform {
-    Transform { linear, translation: DVec3::ZERO }
 }

@@ -2,25 +2,36 @@
 
 use super::header::{Element, Encoding, Kind};
 use super::numbers::Numbers;
+use super::vertices::colors;
 use crate::read::polygon::Triangulator;
 
 /// What was read.
+#[derive(Default)]
 pub(super) struct Faces {
     pub triangles: Vec<[u32; 3]>,
     /// Faces with less than three corners.
     pub small: usize,
+    /// A colour a triangle, where one was asked for.
+    pub colors: Vec<[f32; 4]>,
+}
+
+/// What faces need to know of their file.
+pub(super) struct Place<'v> {
+    pub encoding: Encoding,
+    pub vertices: &'v [[f32; 3]],
+    /// Corners that a face may have.
+    pub corners: usize,
 }
 
 const NAMES: &[&str] = &["vertex_indices", "vertex_index"];
 
-/// Reads the faces; every index is below the number of vertices.
+/// Reads the faces; every index is below the number of vertices. `attribute`: the colour of faces to read.
 pub(super) fn read(
     e: &Element,
-    encoding: Encoding,
     numbers: &mut Numbers,
-    vertices: &[[f32; 3]],
-    corners: usize,
+    &Place { encoding, vertices, corners }: &Place,
     cutter: &mut Triangulator,
+    attribute: Option<&str>,
 ) -> Result<Faces, String> {
     let Some(list) = e.find(NAMES).filter(|i| e.properties[*i].length.is_some()) else {
         return Err("has no list vertex_indices".into());
@@ -28,12 +39,16 @@ pub(super) fn read(
     if let Some(faces) = all_triangles(e, encoding, numbers, vertices.len())? {
         return Ok(faces);
     }
-    let mut faces = Faces { triangles: Vec::with_capacity(e.count), small: 0 };
+    let mut faces = Faces { triangles: Vec::with_capacity(e.count), ..Faces::default() };
     let mut polygon = Vec::new();
+    let painted = attribute.and_then(|name| e.colors(Some(name)));
     for row in 0..e.count {
+        let mut color = [0.0; 3];
         for (i, p) in e.properties.iter().enumerate() {
             let Some(length) = p.length else {
-                numbers.float(p.kind)?;
+                let number = numbers.float(p.kind)? as f32;
+                let component = painted.and_then(|found| found.iter().position(|at| *at == i));
+                component.into_iter().for_each(|c| color[c] = number);
                 continue;
             };
             let n = numbers.integer(length)? as usize;
@@ -55,6 +70,10 @@ pub(super) fn read(
             faces.small += usize::from(n < 3);
             let place = |i: usize| vertices[polygon[i] as usize];
             cutter.cut(n, place, |t| faces.triangles.push(t.map(|i| polygon[i])));
+        }
+        if let Some(found) = painted {
+            let [color] = colors(&[color], e.properties[found[0]].kind)[..] else { continue };
+            faces.colors.resize(faces.triangles.len(), color);
         }
     }
     Ok(faces)
@@ -93,5 +112,5 @@ fn all_triangles(
         return Err(format!("face {row} has the index {} of {vertices} vertices", largest as i32));
     }
     numbers.bytes(rows.len())?;
-    Ok(Some(Faces { triangles, small: 0 }))
+    Ok(Some(Faces { triangles, ..Faces::default() }))
 }

@@ -79,6 +79,24 @@ impl Element {
         }
     }
 
+    /// The three properties of a colour: red, green and blue, or an attribute by its name in Mitsuba's schemes.
+    pub(super) fn colors(&self, attribute: Option<&str>) -> Option<[usize; 3]> {
+        let of = |names: [String; 3]| {
+            let found = names.map(|n| self.find(&[&n]).filter(|i| self.properties[*i].length.is_none()));
+            let [Some(r), Some(g), Some(b)] = found else { return None };
+            Some([r, g, b])
+        };
+        let plain = |names: [&str; 3]| of(names.map(String::from));
+        let Some(name) = attribute else {
+            return plain(["red", "green", "blue"])
+                .or_else(|| plain(["diffuse_red", "diffuse_green", "diffuse_blue"]));
+        };
+        let ends = [["r", "g", "b"], ["x", "y", "z"], ["0", "1", "2"], ["1", "2", "3"]];
+        let own = ends.into_iter().find_map(|ends| of(ends.map(|end| format!("{name}_{end}"))));
+        let color = || plain(["r", "g", "b"]).or_else(|| plain(["red", "green", "blue"]));
+        own.or_else(|| if name == "color" { color() } else { None })
+    }
+
     /// The position of a property.
     pub(super) fn find(&self, names: &[&str]) -> Option<usize> {
         self.properties.iter().position(|p| names.contains(&p.name.as_str()))

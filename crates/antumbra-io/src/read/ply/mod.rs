@@ -8,6 +8,7 @@ mod vertices;
 use antumbra::scene::{Material, Mesh, SceneBuilder};
 use antumbra_math::Rgb;
 
+use faces::Faces;
 use header::{Element, Encoding, Header};
 use numbers::Numbers;
 
@@ -21,7 +22,7 @@ const CUT: &str = "The file is cut short, or its exporter is wrong.";
 pub(super) fn read(bytes: &[u8], context: &Context) -> Result<SceneBuilder, ReadError> {
     let header = header::read(bytes, context.limits)?;
     let (mut scene, mut said) = (SceneBuilder::default(), Counted::default());
-    let mesh = body(&header, bytes, context, &mut said)?;
+    let (mesh, _) = body(&header, bytes, context, (&mut said, None))?;
     if mesh.triangles.indices.is_empty() {
         let hint = "Point clouds have no surface; make a mesh of them first.";
         return Err(ReadError::new("", "there is nothing to render: no faces").hint(hint));
@@ -43,48 +44,73 @@ pub(super) fn read(bytes: &[u8], context: &Context) -> Result<SceneBuilder, Read
 
 /// The mesh of a `.ply` that another format names.
 pub(super) fn mesh_of(bytes: &[u8], context: &Context, said: &mut Counted) -> Result<Mesh, ReadError> {
-    body(&header::read(bytes, context.limits)?, bytes, context, said)
+    Ok(body(&header::read(bytes, context.limits)?, bytes, context, (said, None))?.0)
 }
 
-fn body(header: &Header, bytes: &[u8], context: &Context, said: &mut Counted) -> Result<Mesh, ReadError> {
+/// The same with the colours of an attribute, `vertex_NAME` or `face_NAME`: those of faces apart, one a triangle.
+pub(super) fn painted(
+    bytes: &[u8],
+    context: &Context,
+    said: &mut Counted,
+    attribute: &str,
+) -> Result<(Mesh, Vec<[f32; 4]>), ReadError> {
+    body(&header::read(bytes, context.limits)?, bytes, context, (said, Some(attribute)))
+}
+
+fn body(
+    header: &Header,
+    bytes: &[u8],
+    context: &Context,
+    (said, attribute): (&mut Counted, Option<&str>),
+) -> Result<(Mesh, Vec<[f32; 4]>), ReadError> {
     let mut cutter = Triangulator::new();
-    let (mesh, small) = mesh(header, bytes, context, &mut cutter)?;
+    let (mesh, Faces { small, colors, .. }) = mesh(header, bytes, context, &mut cutter, attribute)?;
     if small > 0 {
         said.warn("faces", format!("{small} with less than three corners are not drawn"));
     }
     if cutter.gave_up() {
         said.warn("faces", super::INTRICATE);
     }
-    Ok(mesh)
+    Ok((mesh, colors))
 }
 
-/// The mesh and the number of faces that are too small. What follows the faces is not looked at.
+/// The mesh, and what its faces were besides. What follows the faces is not looked at.
 fn mesh(
     header: &Header,
     bytes: &[u8],
     context: &Context,
     cutter: &mut Triangulator,
-) -> Result<(Mesh, usize), ReadError> {
+    attribute: Option<&str>,
+) -> Result<(Mesh, Faces), ReadError> {
+    let part = |of: &str| attribute.and_then(|a| a.strip_prefix(of)?.strip_prefix('_'));
+    // Without an attribute, colours by their usual names; with one of faces, none.
+    let vertex = attribute.map(|_| part("vertex").unwrap_or(""));
     let mut numbers = Numbers::new(&bytes[header.data..], header.encoding);
     let mut mesh: Option<Mesh> = None;
+    let count = |name: &str| header.elements.iter().find(|e| e.name == name).map_or(0, |e| e.count as u64);
+    // Corners, and a triangle of each face at least.
+    let places = count("vertex").saturating_add(count("face"));
+    context.forecast.part(places.saturating_mul(12), count("face"))?;
     for e in &header.elements {
         let fail = |what: String| ReadError::new(format!("element {}", e.name), what).hint(CUT);
         context.take(e.count as u64, 8 * e.properties.len() as u64 + 48).map_err(fail)?;
         match (e.name.as_str(), &mut mesh) {
-            ("vertex", None) => mesh = Some(vertices::read(e, header.encoding, &mut numbers).map_err(fail)?),
+            ("vertex", None) => {
+                mesh = Some(vertices::read(e, header.encoding, &mut numbers, vertex).map_err(fail)?)
+            }
             ("face", Some(mesh)) => {
                 let limit = context.limits.corners;
                 let vertices = &mesh.triangles.vertices;
-                let faces =
-                    faces::read(e, header.encoding, &mut numbers, vertices, limit, cutter).map_err(fail)?;
-                mesh.triangles.indices = faces.triangles;
-                return Ok((std::mem::take(mesh), faces.small));
+                let place = faces::Place { encoding: header.encoding, vertices, corners: limit };
+                let mut faces = faces::read(e, &mut numbers, &place, cutter, part("face")).map_err(fail)?;
+                mesh.triangles.indices = std::mem::take(&mut faces.triangles);
+                return Ok((std::mem::take(mesh), faces));
             }
             ("face", None) => return Err(fail("stands before the vertices".into())),
             _ => skip(e, header.encoding, &mut numbers).map_err(fail)?,
         }
     }
-    mesh.map(|m| (m, 0)).ok_or_else(|| ReadError::new("header", "there is no element vertex"))
+    mesh.map(|m| (m, Faces::default())).ok_or_else(|| ReadError::new("header", "there is no element vertex"))
 }
 
 /// Passes over an element that is not asked for.

@@ -1,7 +1,7 @@
 //! Where the numbers of a PLY come from: bytes of either order, or words.
 
 use super::header::{Encoding, Kind};
-use crate::read::text::show;
+use crate::read::text::{double, show};
 
 /// Takes numbers one after the other.
 pub(super) enum Numbers<'a> {
@@ -51,8 +51,7 @@ impl<'a> Numbers<'a> {
             return Ok(value(self.bytes(kind.size())?, kind, big));
         }
         let word = self.word()?;
-        let number = std::str::from_utf8(word).ok().and_then(|w| w.parse().ok());
-        number.ok_or_else(|| format!("{} is not a number", show(word)))
+        double(word).ok_or_else(|| format!("{} is not a number", show(word)))
     }
 
     /// An integer; those below 0 and fractions have no meaning where this is asked.

@@ -20,13 +20,18 @@ struct Table<'a> {
     big: bool,
 }
 
-/// Reads the vertices into a mesh.
-pub(super) fn read(e: &Element, encoding: Encoding, numbers: &mut Numbers) -> Result<Mesh, String> {
+/// Reads the vertices into a mesh; its colours are those of an attribute if one is asked for.
+pub(super) fn read(
+    e: &Element,
+    encoding: Encoding,
+    numbers: &mut Numbers,
+    colors: Option<&str>,
+) -> Result<Mesh, String> {
     if encoding != Encoding::Ascii
         && let Some(row) = e.row()
     {
         let rows = numbers.bytes(e.count.saturating_mul(row))?;
-        return mesh(e, &Table { rows, row, big: encoding == Encoding::Big });
+        return mesh(e, &Table { rows, row, big: encoding == Encoding::Big }, colors);
     }
     // Texts and rows with lists are first brought into rows of f64.
     let mut rows = Vec::with_capacity(e.count * e.properties.len() * 8);
@@ -42,19 +47,22 @@ pub(super) fn read(e: &Element, encoding: Encoding, numbers: &mut Numbers) -> Re
             rows.extend_from_slice(&number.to_le_bytes());
         }
     }
-    mesh(e, &Table { rows: &rows, row: 0, big: false })
+    mesh(e, &Table { rows: &rows, row: 0, big: false }, colors)
 }
 
 /// `row` 0 stands for rows of f64, whatever the types of the file.
-fn mesh(e: &Element, table: &Table) -> Result<Mesh, String> {
+fn mesh(e: &Element, table: &Table, attribute: Option<&str>) -> Result<Mesh, String> {
     let as_doubles = table.row == 0;
     let row = if as_doubles { 8 * e.properties.len() } else { table.row };
     let table = Table { row, ..*table };
-    let column = |names: &[&str]| {
-        let i = e.find(names).filter(|i| e.properties[*i].length.is_none())?;
+    let at = |i: usize| {
         let offset = |p: &super::header::Property| if as_doubles { 8 } else { p.kind.size() };
         let kind = if as_doubles { Kind::F64 } else { e.properties[i].kind };
-        Some(Column { kind, offset: e.properties[..i].iter().map(offset).sum() })
+        Column { kind, offset: e.properties[..i].iter().map(offset).sum() }
+    };
+    let column = |names: &[&str]| {
+        let i = e.find(names).filter(|i| e.properties[*i].length.is_none())?;
+        Some(at(i))
     };
     let (Some(x), Some(y), Some(z)) = (column(&["x"]), column(&["y"]), column(&["z"])) else {
         return Err("has no x, y and z".into());
@@ -70,23 +78,18 @@ fn mesh(e: &Element, table: &Table) -> Result<Mesh, String> {
     if let (Some(u), Some(v)) = (u, v) {
         mesh.uvs[0] = Some(table.gather([u, v]));
     }
-    let rgb = [
-        column(&["red", "diffuse_red"]),
-        column(&["green", "diffuse_green"]),
-        column(&["blue", "diffuse_blue"]),
-    ];
-    if let [Some(r), Some(g), Some(b)] = rgb {
-        let bytes = e.find(&["red", "diffuse_red"]).map(|i| e.properties[i].kind);
-        mesh.colors = Some(colors(&table.gather([r, g, b]), bytes));
+    if let Some(found) = e.colors(attribute) {
+        let kind = e.properties[found[0]].kind;
+        mesh.colors = Some(colors(&table.gather(found.map(at)), kind));
     }
     Ok(mesh)
 }
 
 /// Bytes and 16-bit numbers are screen colours (sRGB); floats are linear.
-fn colors(rgb: &[[f32; 3]], kind: Option<Kind>) -> Vec<[f32; 4]> {
+pub(super) fn colors(rgb: &[[f32; 3]], kind: Kind) -> Vec<[f32; 4]> {
     let full = match kind {
-        Some(Kind::U8) => 255.0,
-        Some(Kind::U16) => 65535.0,
+        Kind::U8 => 255.0,
+        Kind::U16 => 65535.0,
         _ => return rgb.iter().map(|c| [c[0], c[1], c[2], 1.0]).collect(),
     };
     let linear = |c: f32| srgb::decode(f64::from(c / full));

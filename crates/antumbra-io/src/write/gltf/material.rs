@@ -1,6 +1,6 @@
 //! Materials as metallic-roughness with its extensions: the same where the format has it, else the nearest.
 
-use antumbra::bsdf::{BsdfKind, Facets, Metal};
+use antumbra::bsdf::{BsdfKind, Conductor, Facets, Metal};
 use antumbra::scene::{Alpha, Emission, Material, MaterialId, Surface};
 use antumbra_math::Rgb;
 use serde_json::{Map, Value, json};
@@ -48,6 +48,9 @@ const ROUGH: Look = Look {
     body: false,
     unlit: false,
 };
+
+/// Polished white metal.
+const METAL: Look = Look { metallic: 1.0, roughness: 0.0, ..ROUGH };
 
 impl Writer<'_, '_> {
     /// The material of the document for one of the scene; `plain`: without its textures.
@@ -187,10 +190,6 @@ impl Writer<'_, '_> {
 
     /// The numbers nearest to a surface; says where they are not the same.
     fn nearest(&mut self, surface: &Surface, place: &str) -> Look {
-        let rough = |facets: Option<Facets>| {
-            let [u, v] = facets.map_or([0.0; 2], Facets::alpha);
-            (u * v).sqrt().sqrt()
-        };
         let mut said = |what: &str| self.warn(place, format!("{what}: written as the nearest that glTF has"));
         let facets = surface.facets();
         if facets.is_some_and(|f| f.is_stretched() || f.is_beckmann()) {
@@ -198,6 +197,10 @@ impl Writer<'_, '_> {
         }
         match *surface {
             Surface::Diffuse { albedo } => Look { base: albedo, specular: Some(0.0), ..ROUGH },
+            Surface::DiffuseTransmission(d) => {
+                said("lets light through evenly");
+                Look { base: d.reflectance, specular: Some(0.0), ..ROUGH }
+            }
             Surface::Unlit { color } => Look { base: color, unlit: true, ..ROUGH },
             Surface::MetallicRoughness { base, metallic, roughness, f0 } => {
                 // Beyond, the index grows without end.
@@ -209,15 +212,18 @@ impl Writer<'_, '_> {
                 said("is a perfect mirror");
                 Look { base: reflectance, metallic: 1.0, roughness: 0.0, ..ROUGH }
             }
-            Surface::Conductor(c) => {
+            Surface::Conductor(Conductor { metal, reflectance }) => {
                 said("is a metal by its η and k");
-                let base = c.reflectance * straight_on(&c.metal);
-                Look { base, metallic: 1.0, roughness: 0.0, ..ROUGH }
+                Look { base: reflectance * straight_on(&metal), ..METAL }
             }
             Surface::RoughConductor(c) => {
                 said("is a metal by its η and k");
-                let base = c.reflectance * straight_on(&c.metal);
-                Look { base, metallic: 1.0, roughness: rough(facets), ..ROUGH }
+                Look { base: c.reflectance * straight_on(&c.metal), roughness: rough(facets), ..METAL }
+            }
+            Surface::CoatedConductor(c) => {
+                said("is metal under a clear coat, which is left out");
+                let base = c.reflectance * straight_on(&c.metal());
+                Look { base, roughness: rough(c.facets()), ..METAL }
             }
             Surface::Plastic { albedo, coat, .. } => {
                 said("is plastic");
@@ -295,6 +301,12 @@ fn extensions_of(look: &Look) -> Extensions {
         all.insert("KHR_materials_unlit", json!({}));
     }
     all
+}
+
+/// The perceptual roughness of facets, of the mean of two widths.
+fn rough(facets: Option<Facets>) -> f32 {
+    let [u, v] = facets.map_or([0.0; 2], Facets::alpha);
+    (u * v).sqrt().sqrt()
 }
 
 /// An index of refraction that is not the usual one.

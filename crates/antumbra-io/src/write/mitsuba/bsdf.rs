@@ -111,6 +111,13 @@ impl Writer<'_, '_> {
         let new = |kind: &str| Element::plugin("bsdf", kind);
         Ok(match m.surface {
             Surface::Diffuse { albedo } => new("diffuse").add(self.color("reflectance", albedo, m, dress)?),
+            Surface::DiffuseTransmission(d) => {
+                self.warn(
+                    place,
+                    "lets light through evenly, which Mitsuba does not have: written by what it reflects",
+                );
+                new("diffuse").add(self.color("reflectance", d.reflectance, m, dress)?)
+            }
             Surface::Unlit { color } => {
                 self.warn(
                     place,
@@ -121,14 +128,8 @@ impl Writer<'_, '_> {
             Surface::Mirror { reflectance } => {
                 new("conductor").add(self.color("specular_reflectance", reflectance, m, dress)?)
             }
-            Surface::Conductor(c) => {
-                let color = self.color("specular_reflectance", c.reflectance, m, dress)?;
-                metal(new("conductor"), &c.metal).add(color)
-            }
-            Surface::RoughConductor(c) => {
-                let color = self.color("specular_reflectance", c.reflectance, m, dress)?;
-                let bsdf = metal(new("roughconductor"), &c.metal).add(color);
-                self.rough(bsdf, m, c.facets(), dress)?
+            Surface::Conductor(_) | Surface::RoughConductor(_) | Surface::CoatedConductor(_) => {
+                self.metallic(m, dress)?
             }
             Surface::Dielectric(d) => {
                 let glass = ior(new("dielectric"), d.index_below().unwrap_or(1.5));
@@ -153,6 +154,28 @@ impl Writer<'_, '_> {
             Surface::MetallicRoughness { .. } => self.principled(m, dress)?,
             Surface::Blend { .. } => return Err("a blend on the back of a material".into()),
         })
+    }
+
+    /// Metal; a coat over it is left out.
+    fn metallic(&mut self, m: &Material, dress: Dress) -> Result<Element, String> {
+        let (of, reflectance, facets) = match m.surface {
+            Surface::Conductor(c) => (c.metal, c.reflectance, None),
+            Surface::RoughConductor(c) => (c.metal, c.reflectance, Some(c.facets())),
+            Surface::CoatedConductor(c) => {
+                let what =
+                    "is metal under a clear coat, which Mitsuba does not have: written without the coat";
+                self.warn(format!("material \"{}\"", m.name), what);
+                (c.metal(), c.reflectance, c.facets())
+            }
+            _ => return Err("no metal".into()),
+        };
+        let color = self.color("specular_reflectance", reflectance, m, dress)?;
+        let kind = if facets.is_some() { "roughconductor" } else { "conductor" };
+        let bsdf = metal(Element::plugin("bsdf", kind), &of).add(color);
+        match facets {
+            Some(facets) => self.rough(bsdf, m, facets, dress),
+            None => Ok(bsdf),
+        }
     }
 
     /// A clear coat over a diffuse base.

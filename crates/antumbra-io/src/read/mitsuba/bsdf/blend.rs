@@ -15,6 +15,8 @@ pub(super) fn blendbsdf<'a>(reader: &mut Reader<'a>, element: &'a Element) -> Re
         return Err(element.at.error(format!("{} needs two bsdfs in it", element.words())));
     };
     let (first, second) = (reader.bsdf(first)?, reader.bsdf(second)?);
+    let attributes = [first, second].map(|id| reader.bsdfs.attribute(id));
+    reader.color_both(element, attributes);
     let open = [first, second].map(|id| opacity(&reader.scene.materials[id as usize]));
     let weight = reader.paint(element, "weight", 0.5)?;
     match (weight, open) {
@@ -32,6 +34,17 @@ pub(super) fn blendbsdf<'a>(reader: &mut Reader<'a>, element: &'a Element) -> Re
                 }
             })
         }
+    }
+}
+
+impl Reader<'_> {
+    /// Takes the attribute of one of two bsdfs for both: a mesh has one set of colours.
+    pub(super) fn color_both(&mut self, element: &Element, [one, other]: [Option<String>; 2]) {
+        if one != other {
+            let what = format!("colours of a mesh on one bsdf of {}: they colour both", element.words());
+            self.said.warn(element.at.words(), what);
+        }
+        self.bsdfs.attribute = one.or(other);
     }
 }
 

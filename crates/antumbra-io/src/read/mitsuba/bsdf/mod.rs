@@ -5,6 +5,7 @@ mod dielectric;
 mod metal;
 mod opaque;
 mod plastic;
+mod principled;
 mod wrap;
 
 use std::collections::HashMap;
@@ -25,7 +26,7 @@ type Make = for<'a> fn(&mut Reader<'a>, &'a Element) -> Result<Material, ReadErr
 /// Every bsdf plugin that is read. To add one: a function and a line here.
 const BSDFS: [(&str, Make); 15] = [
     ("diffuse", opaque::diffuse),
-    ("principled", opaque::principled),
+    ("principled", principled::principled),
     ("null", opaque::null),
     ("conductor", metal::conductor),
     ("roughconductor", metal::roughconductor),
@@ -43,12 +44,25 @@ const BSDFS: [(&str, Make); 15] = [
 
 /// Bsdfs within bsdfs.
 const DEEPEST: u32 = 16;
+/// Bytes that a material takes in memory, about.
+const MATERIAL_BYTES: u64 = 512;
 
 /// What was converted already.
 #[derive(Default)]
 pub(super) struct Known {
     done: HashMap<*const Element, MaterialId>,
     depth: u32,
+    /// The attribute of the mesh that a material shows.
+    attributes: HashMap<MaterialId, String>,
+    /// That of the material which is being converted.
+    attribute: Option<String>,
+}
+
+impl Known {
+    /// The attribute of the mesh that a material shows as its colour.
+    pub(super) fn attribute(&self, id: MaterialId) -> Option<String> {
+        self.attributes.get(&id).cloned()
+    }
 }
 
 impl<'a> Reader<'a> {
@@ -57,8 +71,13 @@ impl<'a> Reader<'a> {
         if let Some(id) = self.bsdfs.done.get(&std::ptr::from_ref(element)) {
             return Ok(*id);
         }
+        // A bsdf in another one has colours of its own.
+        let outer = self.bsdfs.attribute.take();
         let material = self.convert(element)?.named(element.attribute("id"));
         let id = self.scene.material(material);
+        if let Some(own) = std::mem::replace(&mut self.bsdfs.attribute, outer) {
+            self.bsdfs.attributes.insert(id, own);
+        }
         self.bsdfs.done.insert(std::ptr::from_ref(element), id);
         Ok(id)
     }
@@ -72,6 +91,7 @@ impl<'a> Reader<'a> {
             self.lacks(element, "drawn grey");
             return Ok(Material::diffuse(Rgb::grey(GREY)));
         };
+        self.context.take(1, MATERIAL_BYTES).map_err(|what| element.at.error(what))?;
         self.bsdfs.depth += 1;
         let material = make(self, element)?;
         self.bsdfs.depth -= 1;
@@ -96,6 +116,15 @@ impl<'a> Reader<'a> {
         default: f32,
     ) -> Result<Material, ReadError> {
         let mut material = material;
+        if let Some(texture) = self.mesh_attribute(element, name)? {
+            let scale = texture.float("scale", 1.0)? as f32;
+            let attribute = texture.string("name")?;
+            let attribute = attribute.ok_or_else(|| texture.at.error("a mesh_attribute has no \"name\""))?;
+            self.bsdfs.attribute = Some(attribute.into());
+            material.surface.tint(Rgb::grey(scale));
+            self.name_the_unread(texture);
+            return Ok(material);
+        }
         match self.paint(element, name, default)? {
             Paint::Plain(color) => material.surface.tint(color),
             Paint::Texture(texture) => {
@@ -104,6 +133,12 @@ impl<'a> Reader<'a> {
             }
         }
         Ok(material)
+    }
+
+    /// The texture on a property, if it is what varies over a mesh itself.
+    fn mesh_attribute(&self, element: &'a Element, name: &str) -> Result<Option<&'a Element>, ReadError> {
+        let value = element.property(name).map(|value| self.resolved(value)).transpose()?;
+        Ok(value.filter(|value| value.plugin() == "mesh_attribute"))
     }
 
     /// Facets of the width α, or of two, Beckmann's unless the file says otherwise; and the texture of α, if one says it.

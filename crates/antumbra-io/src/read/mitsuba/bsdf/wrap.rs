@@ -14,8 +14,11 @@ pub(super) fn twosided<'a>(reader: &mut Reader<'a>, element: &'a Element) -> Res
     let material = reader.each_part(material, &both);
     match reader.plugins(element, "bsdf")?[..] {
         [_, back] => {
+            let front = reader.bsdfs.attribute.take();
             let back = reader.convert(back)?;
             let back = reader.each_part(back, &both);
+            let behind = reader.bsdfs.attribute.take();
+            reader.color_both(element, [front, behind]);
             Ok(Material { back: Some(reader.scene.material(back)), ..material })
         }
         [_, _, third, ..] => Err(third.at.error(format!("{} has more than two bsdfs", element.words()))),

@@ -3,7 +3,9 @@
 mod analytic;
 mod cube;
 mod file;
+mod group;
 mod round;
+mod serialized;
 
 use std::collections::HashMap;
 
@@ -33,6 +35,10 @@ type Make = for<'a> fn(&mut Reader<'a>, &'a Element, &Placing) -> Result<Body, R
 struct Placing {
     /// Shape → world.
     world: Transform,
+    /// Its own transform mirrors it, whatever that of an instance does.
+    mirrored: bool,
+    /// What its look shows of the mesh: `vertex_NAME` or `face_NAME`.
+    attribute: Option<String>,
     /// Texture coordinates matter.
     textured: bool,
     /// It gives off light.
@@ -40,9 +46,10 @@ struct Placing {
 }
 
 /// Every shape plugin that is read. To add one: a function and a line here.
-const SHAPES: [(&str, Make); 7] = [
+const SHAPES: [(&str, Make); 8] = [
     ("ply", file::ply),
     ("obj", file::obj),
+    ("serialized", serialized::serialized),
     ("rectangle", analytic::rectangle),
     ("disk", analytic::disk),
     ("cube", cube::cube),
@@ -53,9 +60,29 @@ const SHAPES: [(&str, Make); 7] = [
 /// Meshes that were made already, by what they are made of.
 pub(super) type Known = HashMap<String, MeshId>;
 
+pub(super) use serialized::Serialized;
+
+/// Where a shape is placed.
+struct Within<'a> {
+    /// What the shape's own transform leads into → world.
+    world: Transform,
+    /// The instance that draws it.
+    instance: Option<&'a Element>,
+    /// Shapes that hold it.
+    depth: u32,
+}
+
 impl<'a> Reader<'a> {
-    /// Places a shape, as an object, a light or both.
+    /// Places a shape of the scene, as an object, a light or both.
     pub(super) fn shape(&mut self, element: &'a Element) -> Result<(), ReadError> {
+        let within = Within { world: self.context.root, instance: None, depth: 0 };
+        self.shape_within(element, &within)
+    }
+
+    fn shape_within(&mut self, element: &'a Element, within: &Within<'a>) -> Result<(), ReadError> {
+        if let Some((_, place)) = group::GROUPS.iter().find(|g| g.0 == element.plugin()) {
+            return place(self, element, within);
+        }
         self.announced += 1;
         let Some((_, make)) = SHAPES.iter().find(|s| s.0 == element.plugin()) else {
             self.lacks(element, "left out");
@@ -63,12 +90,21 @@ impl<'a> Reader<'a> {
         };
         let emission = self.area_emitter(element)?;
         let (material, written_out) = self.look(element, emission.is_some())?;
-        let (name, context) = (name(element), self.context);
-        let world = context.root.after(&element.transform("to_world")?);
+        let name = name(within.instance.filter(|i| i.given("id").is_some()).unwrap_or(element));
+        let own = element.transform("to_world")?;
         let textured = self.is_textured(&material);
-        let placing = Placing { world, textured, shines: emission.is_some() };
+        let placing = Placing {
+            world: within.world.after(&own),
+            mirrored: own.mirrors(),
+            attribute: written_out.and_then(|id| self.bsdfs.attribute(id)),
+            textured,
+            shines: emission.is_some(),
+        };
         let body = make(self, element, &placing)?;
         self.name_the_unread(element);
+        if let Some(attribute) = &placing.attribute {
+            self.check_attribute(element, &body, attribute);
+        }
         let black = matches!(material.surface, Surface::Diffuse { albedo } if albedo.is_black());
         let black = black && material.back.is_none();
         if let (Body::Parallelogram([corner, u, v], ..), Some(radiance), true) = (&body, emission, black) {
@@ -83,6 +119,18 @@ impl<'a> Reader<'a> {
             Body::Shape(shape) => self.scene.shape(&name, shape, material),
         }
         Ok(())
+    }
+
+    /// Says where a shape has no attribute that its look asks for.
+    fn check_attribute(&mut self, element: &Element, body: &Body, attribute: &str) {
+        let painted = match body {
+            Body::Mesh(mesh, _) => self.scene.meshes[*mesh as usize].colors.is_some(),
+            _ => false,
+        };
+        if !painted {
+            let what = format!("{} has no colours called \"{attribute}\": drawn white", element.words());
+            self.said.warn(element.at.words(), what);
+        }
     }
 
     /// A look is painted with a texture; one of parts may be, where the scene has textures.

@@ -40,6 +40,9 @@ struct Placing {
     shines: bool,
 }
 
+/// How many materials back the same one is looked for.
+const NEAR: usize = 256;
+
 /// A shape in its place.
 #[derive(Clone)]
 struct Part {
@@ -155,8 +158,10 @@ impl Reader<'_> {
         if materials[base as usize] == material {
             return base;
         }
-        match materials.iter().rposition(|m| *m == material) {
-            Some(id) => id as MaterialId,
+        // Further back, a copy costs less than looking for it.
+        let near = materials.len().saturating_sub(NEAR);
+        match materials[near..].iter().rposition(|m| *m == material) {
+            Some(i) => (near + i) as MaterialId,
             None => self.scene.material(material),
         }
     }

@@ -2,6 +2,13 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may stop at the first surprise")]
 
+mod attributes;
+mod colors;
+mod damaged;
+mod groups;
+mod models;
+mod serialized;
+
 use std::collections::HashMap;
 
 use antumbra::light::Light;
@@ -14,9 +21,9 @@ const PLY: &str = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\npr
     property float u\nproperty float v\nelement face 2\nproperty list uchar int vertex_indices\nend_header\n\
     0 0 0 0 0\n1 0 0 1 0\n0 1 0 0 1\n0 0 1 1 1\n3 0 1 2\n3 1 0 3\n";
 
-fn with(inside: &str, files: &[(&str, &str)]) -> Result<SceneBuilder, ReadError> {
+fn with<T: AsRef<[u8]>>(inside: &str, files: &[(&str, T)]) -> Result<SceneBuilder, ReadError> {
     let text = format!("<scene version=\"3.0.0\">\n{inside}\n</scene>");
-    let files = files.iter().map(|(name, text)| (name.to_string(), text.as_bytes().to_vec()));
+    let files = files.iter().map(|(name, bytes)| (name.to_string(), bytes.as_ref().to_vec()));
     read(Format::Mitsuba, text.as_bytes(), &MemoryFiles(HashMap::from_iter(files)), &Limits::default())
 }
 
@@ -305,7 +312,9 @@ fn what_is_not_read_is_named_once_with_its_line() {
 #[test]
 fn old_files_and_broken_ones_say_where() {
     let old = read(Format::Mitsuba, b"<scene version='0.6.0'/>", &MemoryFiles::default(), &Limits::default());
-    assert!(old.unwrap_err().what.contains("Mitsuba 0.6.0"));
+    let old = old.unwrap_err();
+    assert!(old.what.contains("Mitsuba 0.6.0") && old.place == "line 1, column 1", "{old}");
+    assert!(old.hint.contains("upgrades"));
     for (inside, told) in [
         (
             "<shape type='sphere'><float name='radius' value='1,2'/></shape>",
