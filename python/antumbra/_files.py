@@ -24,6 +24,15 @@ def write_whole(path: Path, text: str) -> None:
         raise
 
 
+def why(problem: OSError) -> str:
+    """What stands in the way of a folder, in words."""
+    if isinstance(problem, FileExistsError):
+        return "it is a file, not a folder"
+    if isinstance(problem, NotADirectoryError):
+        return "a part of the path is a file, not a folder"
+    return problem.strerror or str(problem)
+
+
 def _umask() -> int:
     mask = os.umask(0)
     os.umask(mask)

@@ -182,16 +182,25 @@ class Environment:
     """Light from all around: a constant radiance (one number or three), a lat-long picture, or a file, times `scale`.
 
     A picture is (H, W, 3) float of linear radiance, row 0 at the top (+y); a direction is
-    (sin φ sin θ, cos θ, −cos φ sin θ) with φ = 2πu, θ = πv. A file is the path of an EXR or HDR picture.
+    (sin φ sin θ, cos θ, −cos φ sin θ) with φ = 2πu, θ = πv. A file is the path of an EXR or HDR picture. `azimuth`
+    [rad] turns it clockwise, seen from above: what stood in the north (−z) then stands there, π/2 is east (+x).
+    `nearest`: each pixel is a patch of one radiance, instead of bilinear interpolation.
     """
 
     radiance: Color | ArrayLike | str | PathLike[str]
     scale: float = 1.0
+    azimuth: float = 0.0
+    nearest: bool = False
 
     def fields(self) -> Fields:
         """The constant radiance, where there is no picture."""
         scale = within("scale", self.scale, 0.0, math.inf)
         return {"radiance": [scale * c for c in color("radiance", cast("Color", self.radiance))]}
+
+    def placed(self) -> tuple[float, float, bool]:
+        """Scale, azimuth and `nearest` of a picture."""
+        scale = within("scale", self.scale, 0.0, math.inf)
+        return scale, within("azimuth", self.azimuth, -math.inf, math.inf), bool(self.nearest)
 
 
 @dataclass(frozen=True)

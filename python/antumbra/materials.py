@@ -25,6 +25,25 @@ class Diffuse(Described):
 
 
 @dataclass(frozen=True)
+class DiffuseTransmission(Described):
+    """Paper, cloth, a leaf: light leaves evenly on both sides of a thin surface.
+
+    `reflectance` ρ and `transmittance` τ in [0, 1], one number or three: f_r is ρ/π on the side of the light and τ/π on
+    the other. Where ρ + τ is above 1, both are scaled down.
+    """
+
+    reflectance: Color = 0.25
+    transmittance: Color = 0.25
+
+    def fields(self) -> Fields:
+        """Its numbers by name."""
+        return {
+            "reflectance": color("reflectance", self.reflectance),
+            "transmittance": color("transmittance", self.transmittance),
+        }
+
+
+@dataclass(frozen=True)
 class Mirror(Described):
     """A perfect mirror.
 
@@ -182,6 +201,7 @@ class TwoSided(Described):
 
 Material = (
     Diffuse
+    | DiffuseTransmission
     | Mirror
     | MetallicRoughness
     | Conductor

@@ -42,6 +42,7 @@ def load(
     variant: str | None = None,
     at_time: float | None = None,
     animation: str | None = None,
+    max_memory: str | int | None = None,
 ) -> Scene:
     """Reads a scene: glTF/GLB, OBJ, PLY, STL, Mitsuba 3 XML, pbrt-v4, or a lat-long picture (and a scene under it).
 
@@ -51,6 +52,8 @@ def load(
 
     Of glTF, `variant`: the variant of materials; `at_time`: the time [s] that its animations stand at, at rest without;
     `animation`: the one that plays, else all that can play together.
+
+    `max_memory`: a scene that would take more is refused, as early as its size is known: bytes, or a size like "4G".
 
     Raises SceneError with .file, .place and .hint.
 
@@ -65,8 +68,16 @@ def load(
     look = None if variant is None else text("variant", variant)
     time = None if at_time is None else number("at_time", at_time)
     clip = None if animation is None else text("animation", animation)
+    most = str(max_memory) if isinstance(max_memory, int) else max_memory and text("max_memory", max_memory)
     core = _core.Scene.load(
-        text("path", path), up_axis, folder, given, variant=look, at_time=time, animation=clip
+        text("path", path),
+        up_axis,
+        folder,
+        given,
+        variant=look,
+        at_time=time,
+        animation=clip,
+        max_memory=most,
     )
     return Scene._of(core)
 
@@ -167,10 +178,10 @@ class Scene(Anatomy, Exported, Openings, Pieces):
         """Adds a light of `antumbra.lights`; `name` is what `light=` and `visible_fraction` call it."""
         kind = one_of("light", light, Light)
         if isinstance(light, Environment) and isinstance(light.radiance, (str, PathLike)):
-            self._core.add_environment_file(name, fspath(light.radiance), light.scale)
+            self._core.add_environment_file(name, fspath(light.radiance), *light.placed())
         elif isinstance(light, Environment) and np.ndim(cast("ArrayLike", light.radiance)) > 1:
             picture = lat_long(light.radiance)
-            self._core.add_environment(name, picture, light.scale)
+            self._core.add_environment(name, picture, *light.placed())
         else:
             self._core.add_light(name, kind, light.fields())
 

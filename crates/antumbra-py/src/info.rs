@@ -99,11 +99,13 @@ fn material_kinds(scene: &Scene) -> BTreeMap<&'static str, usize> {
         let word = match material.surface {
             Surface::Diffuse { .. } if material.emission.is_some() => "light",
             Surface::Diffuse { .. } => "diffuse",
+            Surface::DiffuseTransmission(_) => "thin cloth",
             Surface::Mirror { .. } => "mirror",
             Surface::MetallicRoughness { .. } => "metallic-roughness",
             Surface::Unlit { .. } => "unlit",
             Surface::Conductor(_) => "metal",
             Surface::RoughConductor(_) => "rough metal",
+            Surface::CoatedConductor(_) => "coated metal",
             Surface::Dielectric(_) => "glass",
             Surface::RoughDielectric(_) => "ground glass",
             Surface::ThinDielectric(_) => "pane of glass",

@@ -78,6 +78,9 @@ pub fn metals() -> Vec<MetalRow> {
 pub fn material(kind: &str, fields: &Fields, emission: Option<[f32; 3]>) -> PyResult<Material> {
     let material = match kind {
         "Diffuse" => Material::diffuse(fields.rgb("albedo")?),
+        "DiffuseTransmission" => {
+            Material::diffuse_transmission(fields.rgb("reflectance")?, fields.rgb("transmittance")?)
+        }
         "Mirror" => Material::mirror(fields.rgb("reflectance")?),
         "MetallicRoughness" => Material::metallic_roughness(
             fields.rgb("base")?,

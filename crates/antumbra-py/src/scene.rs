@@ -11,7 +11,7 @@ use antumbra::schedule;
 use antumbra::settings::Settings;
 use antumbra::texture::{Image, Texels};
 use antumbra::trace::Triangles;
-use antumbra_io::{ReadOptions, UpAxis, read_environment, read_path};
+use antumbra_io::{Limits, ReadOptions, UpAxis, read_environment, read_path, size_of};
 use numpy::{PyReadonlyArray2, PyReadonlyArray3};
 use pyo3::prelude::*;
 
@@ -125,6 +125,10 @@ fn build(state: &mut State, keep: bool) -> Result<Arc<Scene>, SceneError> {
     schedule::build(builder, 0).map(Arc::new)
 }
 
+fn no_size(text: &str) -> PyErr {
+    errors::choice(format!("the memory \"{text}\" is no size (500M, 4G, or a number of bytes)"))
+}
+
 #[pymethods]
 impl PyScene {
     /// An empty scene; `origin` is the place of the world that its numbers are kept relative to.
@@ -145,7 +149,7 @@ impl PyScene {
     /// A scene from a file.
     #[staticmethod]
     #[pyo3(signature = (path, up_axis = None, files_from = None, parameters = Vec::new(), keep = true,
-        variant = None, at_time = None, animation = None))]
+        variant = None, at_time = None, animation = None, max_memory = None))]
     #[allow(clippy::too_many_arguments, reason = "they are keywords in Python")]
     fn load(
         py: Python<'_>,
@@ -157,6 +161,7 @@ impl PyScene {
         variant: Option<String>,
         at_time: Option<f64>,
         animation: Option<String>,
+        max_memory: Option<&str>,
     ) -> PyResult<PyScene> {
         let up_axis = match up_axis {
             None => UpAxis::default(),
@@ -164,7 +169,9 @@ impl PyScene {
             Some("z") => UpAxis::Z,
             Some(other) => return Err(errors::choice(format!("there is no up axis \"{other}\" (y, z)"))),
         };
+        let memory = max_memory.map(|text| size_of(text).ok_or_else(|| no_size(text))).transpose()?;
         let options = ReadOptions {
+            limits: Limits { memory, ..Limits::default() },
             files_from,
             up_axis,
             parameters,
@@ -172,7 +179,6 @@ impl PyScene {
             at_time,
             animation,
             draco: Some(draco::decode),
-            ..ReadOptions::default()
         };
         let builder = py.detach(|| read_path(Path::new(path), &options)).map_err(|e| errors::read(&e))?;
         PyScene::of(on_stage(builder), path).finished(py, keep)
@@ -257,23 +263,38 @@ impl PyScene {
         })
     }
 
-    /// Adds an environment of a lat-long picture.
-    fn add_environment(&self, name: &str, pixels: PyReadonlyArray3<'_, f32>, scale: f32) -> PyResult<()> {
+    /// Adds an environment of a lat-long picture, its north at an azimuth [rad], clockwise from −z over +x.
+    fn add_environment(
+        &self,
+        name: &str,
+        pixels: PyReadonlyArray3<'_, f32>,
+        scale: f32,
+        azimuth: f32,
+        nearest: bool,
+    ) -> PyResult<()> {
         let pixels = pixels.as_array();
         let texels = pixels.rows().into_iter().map(|c| [c[0], c[1], c[2]]).collect();
         let image = Image::new(pixels.shape()[1] as u32, pixels.shape()[0] as u32, Texels::Float(texels));
         let image = image.ok_or_else(|| errors::value("an environment has at least one pixel"))?;
         self.change(|builder| {
-            builder.light(name, Environment::image(Arc::new(image)).scaled(Rgb::grey(scale)));
+            builder.light(name, placed(Environment::image(Arc::new(image)), scale, azimuth, nearest));
             Ok(())
         })
     }
 
     /// Adds an environment of a file.
-    fn add_environment_file(&self, py: Python<'_>, name: &str, path: &str, scale: f32) -> PyResult<()> {
+    fn add_environment_file(
+        &self,
+        py: Python<'_>,
+        name: &str,
+        path: &str,
+        scale: f32,
+        azimuth: f32,
+        nearest: bool,
+    ) -> PyResult<()> {
         let (light, messages) = environment_file(py, path)?;
         self.change(|builder| {
-            builder.light(name, light.scaled(Rgb::grey(scale)));
+            builder.light(name, placed(light, scale, azimuth, nearest));
             builder.messages.extend(messages);
             Ok(())
         })
@@ -317,6 +338,11 @@ impl PyScene {
             Ok(())
         })
     }
+}
+
+/// A map as Python asks for it.
+fn placed(map: Environment, scale: f32, azimuth: f32, nearest: bool) -> Environment {
+    map.scaled(Rgb::grey(scale)).nearest(nearest).rotated(-azimuth)
 }
 
 /// A lat-long picture alone is light and nothing to see: the built-in things stand under it.

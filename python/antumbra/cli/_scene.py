@@ -29,6 +29,8 @@ def options() -> list[Option]:
                help="the time that the animations of a glTF file stand at (default: at rest)"),
         Option("--animation", group="Files", metavar="NAME", reading=True,
                help="the animation of a glTF file that plays (default: all that can play together)"),
+        Option("--max-memory", group="Files", metavar="SIZE", reading=True,
+               help="a scene that would take more memory is refused early: 500M, 4G (default: none is)"),
     ]  # fmt: skip
 
 

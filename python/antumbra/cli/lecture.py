@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, Self
 
 import click
 
+from antumbra._files import why
 from antumbra.cli import _say
 from antumbra.cli._command import Option, Verb, output_option
 from antumbra.lecture.variant import LARGEST_SEED
@@ -58,8 +59,9 @@ def run(
         lecture.folder.check()
         lecture.folder.check_room(lecture.room())
     except OSError as problem:
-        what = problem.strerror or str(problem)
-        raise click.UsageError(f"{output} cannot be written ({what}). Nothing was rendered.") from problem
+        raise click.UsageError(
+            f"{output} cannot be written ({why(problem)}). Nothing was rendered."
+        ) from problem
     began = time.monotonic()
     try:
         if not quiet:
@@ -194,7 +196,7 @@ def _exercises(folder: Path) -> int:
     try:
         written = exercises.write(folder)
     except OSError as problem:
-        raise click.UsageError(f"{folder} cannot be written ({problem.strerror or problem})") from problem
+        raise click.UsageError(f"{folder} cannot be written ({why(problem)})") from problem
     first, kept = exercises.names()[0], len(exercises.names()) - len(written)
     left = f" · {kept} were there and are kept" if kept else ""
     print(f"{folder}/   {_say.some(len(written), 'exercise')}{left} · next: antumbra check {folder}/{first}")
@@ -271,18 +273,16 @@ def _too_large(lecture: Lecture) -> list[tuple[str, str, str]]:
 
 def _stopped(lecture: Lecture, output: str) -> int:
     done = len(lecture.figures) - sum(name in lecture.figures for name in lecture.waiting())
-    print(
-        f"stopped: {done} of {_say.some(len(lecture.figures), 'figure')} finished and kept in {output}; "
-        "the same command goes on",
-        file=sys.stderr,
-    )
+    kept = f"{done} of {_say.some(len(lecture.figures), 'figure')} finished and kept in {output}"
+    said = f"{kept}; the same command goes on" if done else "no figure is finished"
+    print(f"stopped: {said}", file=sys.stderr)
     return STOPPED
 
 
 def _unwritten(lecture: Lecture, output: str, problem: OSError) -> int:
     done = len(lecture.figures) - sum(name in lecture.figures for name in lecture.waiting())
     _say.error(
-        f"{output} cannot be written any more ({problem.strerror or problem})",
+        f"{output} cannot be written any more ({why(problem)})",
         f"{done} of {_say.some(len(lecture.figures), 'figure')} are finished and kept; the same command goes on.",
     )
     return OURS

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from antumbra import _core
-from antumbra._files import write_whole
+from antumbra._files import why, write_whole
 from antumbra.study.rows import Row
 
 if TYPE_CHECKING:
@@ -36,8 +36,7 @@ def check_folder(folder: Path) -> None:
         for name in NAMES:
             _core.check_writable(str(folder / name))
     except OSError as problem:
-        reason = problem.strerror.lower() if problem.strerror else problem
-        raise FolderError(f"{folder} cannot be written ({reason})") from problem
+        raise FolderError(f"{folder} cannot be written ({why(problem)})") from problem
 
 
 def keep(study: Study, folder: Path) -> None:
