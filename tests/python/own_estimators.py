@@ -177,6 +177,15 @@ def even_openness(scene, at, u):
     return 1.0 - scene.occluded(at, directions=toward(at.normal, u(2), even=True))
 
 
+def openness_above(step):
+    """Rays that start a step above the surface, in scene units."""
+
+    def estimator(scene, at, u):
+        return 1.0 - scene.occluded(at.position + step * at.normal, directions=toward(at.normal, u(2)))
+
+    return estimator
+
+
 RIGHT = [area, hemisphere, cubed, even, mis]
 # Each with words of what the check must say.
 WRONG = {
@@ -207,4 +216,10 @@ WRONG = {
     "no offset": (no_offset, "false shadow"),
     "p(light)": (one_lamp_of_many, "p(light) is missing"),
     "own albedo": (grey, "albedo"),
+}
+WRONG_OPENNESS = {
+    "directions drawn evenly": (even_openness, "divided by the density cos θ/π of cosine-weighted ones"),
+    "no offset": (openness_above(0.0), "false shadow"),
+    "an offset of 2 cm": (openness_above(0.02), "too large an offset"),
+    "an offset above a low wall": (openness_above(0.12), "too large an offset"),
 }

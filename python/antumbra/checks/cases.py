@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from antumbra.checks.lamps import Lamp, irradiance, lambert
+from antumbra.checks.law import EXPONENTS, Exponents
 from antumbra.lights import Environment, Rectangle
 from antumbra.materials import Diffuse
 from antumbra.scene import Scene
@@ -214,14 +215,32 @@ def _open_plane() -> Scene:
     return _floor(Scene(), turn=_TURN)
 
 
+# As far beside the origin as it is high: from a start above the floor it hides less, from above it nothing.
+_LOW = [(0.1, 0.0, -3.0), (0.1, 0.1, -3.0), (0.1, 0.1, 3.0), (0.1, 0.0, 3.0)]
+
+
+# So large that an offset of some hands changes nothing in them.
 PITS = {
-    "pit as deep as half its width": Lamp((0, 1.0, 0), (0, -1, 0), 2.0),
-    "deep pit": Lamp((0, 2.5, 0), (0, -1, 0), 2.0),
-    "near a wall of the pit": Lamp((0.8, 1.0, 0.5), (0, -1, 0), 2.0),
-    "shallow pit": Lamp((0.5, 0.2, 0), (0, -1, 0), 1.6),
+    "pit as deep as half its width": Lamp((0, 50.0, 0), (0, -1, 0), 100.0),
+    "deep pit": Lamp((0, 125.0, 0), (0, -1, 0), 100.0),
+    "near a wall of the pit": Lamp((40.0, 50.0, 25.0), (0, -1, 0), 100.0),
+    "shallow pit": Lamp((25.0, 10.0, 0), (0, -1, 0), 80.0),
 }
 _OCCLUDED = [
     *(Case(name, _pit(pit), _at_origin, irradiance(pit) / math.pi, pit) for name, pit in PITS.items()),
+    Case(
+        "low wall beside",
+        _wall(lambda: _floor(Scene()), _LOW),
+        _at_origin,
+        1 - lambert([np.array(corner) for corner in _LOW]) / math.pi,
+        # Without the wall the share is 1.17.
+        hints=(
+            (
+                (1.0, 1.2),
+                "too large an offset: rays start so far above the surface that what lies close blocks less",
+            ),
+        ),
+    ),
     Case(
         "open plane",
         _open_plane,
@@ -257,6 +276,8 @@ class Kind(NamedTuple):
     # What is wrong where no lamp, or no pit, gives any light, and where some give none.
     dark: str
     darkened: str
+    # Exponents of cos θ, cos θ′ and 1/r that are tried for what answers follow.
+    laws: Sequence[Exponents] = EXPONENTS
 
 
 KINDS = {
@@ -270,5 +291,14 @@ KINDS = {
         _NO_LAMP,
         _OWN_LAMP,
     ),
-    "occlusion": Kind(_OCCLUDED, 1.0, ("pillars",), "ambient-occlusion", _NO_OPENING, _SOME_OPENING),
+    # Nothing but cos θ is in the integral; under a level opening cos θ′ would be the same.
+    "occlusion": Kind(
+        _OCCLUDED,
+        1.0,
+        ("pillars",),
+        "ambient-occlusion",
+        _NO_OPENING,
+        _SOME_OPENING,
+        [(cos, 1, 2) for cos in range(5)],
+    ),
 }

@@ -16,6 +16,11 @@ from antumbra.checks.lamps import Lamp, falls_as
 _SUM = 4e-4
 
 
+Exponents = tuple[int, int, int]
+# Of cos θ, cos θ′ and 1/r.
+EXPONENTS: Sequence[Exponents] = list(itertools.product(range(5), range(3), range(5)))
+
+
 class Law(NamedTuple):
     """L = k · ∫ f L_e cos^a θ cos^b θ′ / r^c dA; right: k = a = b = 1, c = 2."""
 
@@ -30,15 +35,20 @@ class Law(NamedTuple):
         return abs(self.factor - factor) < 5 * self.factor_error + 2e-3 * factor
 
 
-def followed(lamps: Sequence[Lamp], shares: Sequence[float], errors: Sequence[float]) -> Law | None:
+def followed(
+    lamps: Sequence[Lamp],
+    shares: Sequence[float],
+    errors: Sequence[float],
+    exponents: Sequence[Exponents] = EXPONENTS,
+) -> Law | None:
     """The law that answers follow, given as shares of the true ones with their errors; None if they follow none.
 
-    Least squares for k under each choice of exponents; the best of them, if all answers are within 5 of their errors.
+    Least squares for k under each choice of `exponents`; the best of them, if all answers are within 5 of their errors.
     """
     right = np.array([falls_as(lamp, 1, 1, 2) for lamp in lamps])
     share = np.asarray(shares)
     best: tuple[float, Law] | None = None
-    for a, b, c in itertools.product(range(5), range(3), range(5)):
+    for a, b, c in exponents:
         law = np.array([falls_as(lamp, a, b, c) for lamp in lamps]) / right
         error = np.hypot(np.asarray(errors), _SUM * np.maximum(share, law))
         weight = law**2 / error**2

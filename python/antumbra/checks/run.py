@@ -227,6 +227,7 @@ def _faults(asked: Kind, rows: Sequence[Row]) -> list[str]:
         [lamp for lamp, _ in under],
         [row.answer / row.truth for _, row in under],
         [row.error / row.truth for _, row in under],
+        asked.laws,
     )
     said = in_words(law, asked.albedo) if law else []
     return said or [_hint(asked, rows)]
