@@ -46,16 +46,16 @@ OCCLUSION = (
     "AO(p) = (1/π) ∫ over the hemisphere of V(p, ω) cos θ dω ≈ (1/N) · sum over N directions of V(p, ω)",
 )
 LATER_BOUNCES = (
-    r"L_o = L_e + \mark{T} L_e + \mark{T}^2 L_e + \dots, \qquad (\mark{T} L)(p) = \int_{\Omega} f_r \, L(p') \, \cos\theta \, \text{d}\omega",
+    r"L_o = \mark{L_e} + \mark{T L_e} + \mark{T^2 L_e} + \mark{\dots}, \qquad (T L)(p) = \int_{\Omega} f_r \, L(p') \, \cos\theta \, \text{d}\omega",
     "L_o = L_e + T L_e + T² L_e + …, where (T L)(p) = ∫ over the hemisphere of f_r L(p′) cos θ dω",
 )
 
 _SIZE = Pick((280, 196), (560, 392))
 _VIEW = {"size": _SIZE, "eye": (-7.4, 5.6, 5.4), "look_at": (0.3, 0.55, 0.3), "fov": 0.5}
-_PILLARS = _VIEW | {"estimator": "area", "viewing_rays": Pick(4, 16), "shadow_rays": 4}
+_PILLARS = _VIEW | {"estimator": "area", "viewing_rays": Pick(2, 16), "shadow_rays": 4}
 _ONE_RAY = _VIEW | {"viewing": "centre", "viewing_rays": 1, "light_points": "area", "sampler": "random"}
-_OPEN = {"size": _SIZE, "estimator": "ambient-occlusion", "viewing_rays": Pick(4, 16), "shadow_rays": 16}
-_BOX = {"size": Pick((196, 196), (392, 392)), "estimator": "path", "viewing_rays": Pick(16, 64)}
+_OPEN = {"size": _SIZE, "estimator": "ambient-occlusion", "viewing_rays": Pick(2, 16), "shadow_rays": 16}
+_BOX = {"size": Pick((196, 196), (392, 392)), "estimator": "path", "viewing_rays": Pick(8, 64)}
 
 
 def _pillars(key: str, **options: object) -> Variant:
@@ -63,7 +63,7 @@ def _pillars(key: str, **options: object) -> Variant:
 
 
 def _between(key: str, **options: object) -> Variant:
-    look = {"size": _SIZE, "estimator": "area", "viewing_rays": Pick(4, 16), "shadow_rays": 4}
+    look = {"size": _SIZE, "estimator": "area", "viewing_rays": Pick(2, 16), "shadow_rays": 4}
     return Variant(key, builtin("plane-and-cylinder"), look | options)
 
 

@@ -21,7 +21,7 @@ from antumbra.lecture.believed import is_record
 from antumbra.lecture.variant import edition
 
 # Another number where what is kept gets another form.
-FORM = 4
+FORM = 5
 # What is being made, and what is made and on its way to its places.
 _UNFINISHED, _FINISHED = ".unfinished-", ".finished-"
 # After so many seconds [s] without a change, what is unfinished belongs to nobody any more.

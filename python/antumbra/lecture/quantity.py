@@ -75,7 +75,11 @@ class Quantity:
         return format(self, "")
 
     def facts(self) -> dict[str, Any]:
-        """For JSON: its fields and its text."""
-        ends = zip(("error", "low", "high"), (self.error, *self.interval), strict=True)
-        known = {name: end if math.isfinite(end) else None for name, end in (("value", self.value), *ends)}
-        return {**asdict(self), **known, "text": str(self)}
+        """For JSON: its fields and its text; numbers as they are written, 12.5 with the unit "%".
+
+        >>> Quantity(0.125, 0.01, "%").facts()["value"]
+        12.5
+        """
+        ends = zip(("value", "error", "low", "high"), (self.value, self.error, *self.interval), strict=True)
+        known = {name: self._scale * end if math.isfinite(end) else None for name, end in ends}
+        return {**asdict(self), **known, "unit": self.sign, "text": str(self)}

@@ -2,33 +2,42 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 from made_up import figure
 
-from antumbra.lecture import catalog
+from antumbra.lecture import catalog, make
+from antumbra.lecture.chapters import CHAPTERS
+from antumbra.lecture.figure import Figure
 from antumbra.lecture.make import Lecture
+
+
+def in_place_of_all(patch) -> dict[str, Figure]:
+    """Makes the lecture one of two figures, `one` and `two`, whose chapter opens with pictures of 24 × 16 pixels."""
+    figures = {"one": figure(1), "two": figure(2)}
+    patch.setattr(catalog, "names", lambda: list(figures))
+    patch.setattr(catalog, "ordered", lambda: figures)
+    first, *others = CHAPTERS
+    small = {"size": (24, 16), "viewing_rays": 1}
+    opening = [(replace(v, options={**v.options, **small}), *words) for v, *words in first.pictures]
+    patch.setattr(make, "CHAPTERS", (replace(first, pictures=opening), *others))
+    return figures
 
 
 @pytest.fixture
 def two_figures(monkeypatch):
     """A catalog of two figures, `one` and `two`."""
-    figures = {"one": figure(1), "two": figure(2)}
-    monkeypatch.setattr(catalog, "names", lambda: list(figures))
-    monkeypatch.setattr(catalog, "ordered", lambda: figures)
-    return figures
+    return in_place_of_all(monkeypatch)
 
 
 @pytest.fixture(scope="module")
 def made(tmp_path_factory):
     """The page of two figures, made once."""
-    patch = pytest.MonkeyPatch()
-    figures = {"one": figure(1), "two": figure(2)}
-    patch.setattr(catalog, "names", lambda: list(figures))
-    patch.setattr(catalog, "ordered", lambda: figures)
     folder = tmp_path_factory.mktemp("lecture")
-    Lecture(folder, figures, quick=True).run()
-    yield folder
-    patch.undo()
+    with pytest.MonkeyPatch.context() as patch:
+        Lecture(folder, in_place_of_all(patch), quick=True).run()
+        yield folder
 
 
 @pytest.fixture

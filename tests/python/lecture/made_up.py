@@ -50,7 +50,15 @@ def _parts(run):
     )
     other = Sketch(56, 32).circle((10, 10), 5, "#15181f").done("A ball.")
     frames = [
-        Frame(f"{i}", f"i = {i}: <half>", [picture, share], more=", and more", drawing=d, facts=[f"fact {i}"])
+        Frame(
+            f"{i}",
+            f"i = {i}: <half>",
+            [picture, share],
+            more=", and more",
+            drawing=d,
+            facts=[f"fact {i}"],
+            term=i // 2,
+        )
         for i, d in enumerate([drawing, other, drawing])
     ]
     rays = Sketch(24, 16)
@@ -58,6 +66,8 @@ def _parts(run):
         rays.linked(row, Sketch(24, 16).ray((1, 1), (12 + row, 8), free))
     wide = Table([f"quite a long head {n}" for n in range(6)], [["1"] * 6], "A wide table.")
     table = Table(["ray", "V", "pdf"], [["1", "free", "0.5"], ["2", "blocked", "0.5"]], "Two rays.", fine=[2])
+    rows = [["one", "1,200", "3 ± 1"], ["two", "30", "2"], ["three", "4", "10"]]
+    sorts = Table(["way", "rays", "worth"], rows, "Three ways.", sorted=1)
     axes = Drawing('<g data-s="random"><path class="ln" d="M0 0L9 9"/></g>', 620, 440, "A line.")
     return [
         Strip("i", "Which", frames, labels=("side", "picture"), tells=2),
@@ -69,6 +79,7 @@ def _parts(run):
             [Panel(w, w, [Row([picture, picture])], w == "told") for w in ("random", "owen", "told")],
         ),
         wide,
+        sorts,
         Linked("ray", picture, rays.done("Two rays."), table),
         Plot(axes, "95 %.", Table(["N", "RMSE"], [["1", "1.00"]], "Errors.", foot=["slope", "−0.5"])),
     ]  # fmt: skip
@@ -85,7 +96,9 @@ def figure(number: int) -> Figure:
         measure=_measure,
         stage=lambda run, measured: _parts(run),
         answer=Number("mean", "The mean is {mean}."),
-        equation=Equation([(r"x = \mark{\frac{1}{N}} \sum_{i=1}^N x_i", "x = 1/N sum of x_i")], "Marked: N."),
+        equation=Equation(
+            [(r"x = \mark{\frac{1}{N}} \sum_{i=1}^N \mark{x_i}", "x = 1/N sum of x_i")], "Marked: N, x."
+        ),
         claims=[
             Claim("It is small.", "mean", below=1e3, main=True),
             Claim("It is <large>.", "again", above=1e3),

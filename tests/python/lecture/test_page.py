@@ -36,12 +36,14 @@ def test_a_slider_moves_by_keyboard_and_says_its_value(open_page):
     slider = tab.locator("#one input[type=range]")
     slider.focus()
     assert slider.get_attribute("aria-valuetext") == "i = 2: <half>, and more"
+    lit = tab.locator("#one .hl:not(.off)")
+    assert lit.all_text_contents() == ["xi"]
     tab.keyboard.press("ArrowLeft")
     tab.keyboard.press("ArrowLeft")
     assert slider.get_attribute("aria-valuetext").startswith("i = 0")
     assert tab.locator("#one output").inner_text() == "i = 0: <half>"
     assert tab.locator("#one .frames > li.on").get_attribute("data-v") == "0"
-    assert tab.locator("#one .key span").first.inner_text() == "fact 0"
+    assert tab.locator("#one .key span").first.inner_text() == "fact 0" and lit.all_text_contents() == ["1N"]
     assert tab.locator("#one .draws svg:visible").count() == 1
     assert address(tab) == "#one/answers/i=0"
 
@@ -183,6 +185,25 @@ def test_a_table_that_goes_on_says_so(open_page):
     phone = open_page("", (390, 844))
     bar = "[...document.querySelectorAll('.bar nav a')].every(a => a.getBoundingClientRect().right <= innerWidth)"
     assert phone.evaluate(bar)
+
+
+def test_a_table_is_sorted_by_the_head_that_is_pressed(open_page):
+    page = open_page("#/answers")
+    table = page.locator("#one table:has(thead button)")
+    heads, names = table.locator("thead th"), table.locator("tbody th")
+    assert table.locator("thead button").all_inner_texts() == ["rays", "worth"]
+    sorts = [head.get_attribute("aria-sort") for head in heads.all()]
+    assert sorts == [None, "descending", None]
+    assert names.all_inner_texts() == ["one", "two", "three"]
+    worth = table.get_by_role("button", name="worth")
+    worth.click()
+    assert names.all_inner_texts() == ["three", "one", "two"]
+    assert [head.get_attribute("aria-sort") for head in heads.all()] == [None, None, "descending"]
+    worth.press("Enter")
+    assert names.all_inner_texts() == ["two", "one", "three"]
+    assert heads.last.get_attribute("aria-sort") == "ascending"
+    table.get_by_role("button", name="rays").click()
+    assert names.all_inner_texts() == ["one", "two", "three"]
 
 
 def luminance(rgb) -> float:

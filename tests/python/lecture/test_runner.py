@@ -105,7 +105,7 @@ def test_ctrl_c_in_the_middle_of_a_picture(tmp_path):
     process.send_signal(signal.SIGINT)
     _, err = process.communicate(timeout=60)
     assert process.returncode == 130
-    assert err == "stopped: 0 of 1 figure finished and kept in out; the same command goes on\n"
+    assert err == "stopped: no figure is finished\n"
     assert not [f for f in files(tmp_path) if "unfinished" in f]
 
 
@@ -144,7 +144,8 @@ def test_a_folder_that_cannot_be_written_is_told_before(two_figures, antumbra, t
     (tmp_path / "file").write_text("")
     ended = antumbra("lecture", "--quick", "-o", "file/out")
     assert ended.code == 2
-    assert ended.err == "error: file/out cannot be written (Not a directory). Nothing was rendered.\n"
+    said = "error: file/out cannot be written (a part of the path is a file, not a folder). Nothing was rendered.\n"
+    assert ended.err == said
 
 
 def test_a_single_file_holds_its_pictures(two_figures, antumbra, tmp_path, monkeypatch):

@@ -37,7 +37,7 @@ def _stage(run: Run, measured: Mapping[str, Quantity]) -> list[Part]:
         saved = {word: measured[f"{name}_saved_{word}"] for word in ("blocked", "free")}
         panels.append(Panel(name, name, [maps_of_visits(run, run.scene(build), name, run.pick(SIZE), saved)]))
     times = (
-        "Rates are left out: those of a coarse run's few rays are noise." if run.quick
+        "Rates are left out: those of a coarse run's few rays are noise, but for their ratio, which has its interval below." if run.quick
         else "Rates: of the renderer's own, all cores; medians of 21 calls of each kind in turn, of their ratio with its 95 %. Any hit computes no place, so free rays may gain time."
     )  # fmt: skip
     note = f"Means over {run.pick(TIMES)} random points of a light. Visits: of a counting traversal. {times}"
@@ -45,10 +45,10 @@ def _stage(run: Run, measured: Mapping[str, Quantity]) -> list[Part]:
 
 
 FIGURE = Figure(
-    number=5, chapter=2, title="Anything, or the first thing", seconds=Pick(5, 45),
+    number=5, chapter=2, title="Anything, or the first thing", seconds=Pick(4, 45),
     question=Question(
         "A shadow ray may stop at any blocker, a viewing ray has to find the first surface. "
-        "How much of what the shadow rays of a room visit does that save?",
+        "How many of its visits does that save in a room?",
         ("more than half", "a few per cent", "nothing at all"), 1, ("interior_saved",),
     ),
     variants=[], measure=_measure, stage=_stage,

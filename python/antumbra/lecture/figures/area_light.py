@@ -1,4 +1,4 @@
-"""Figure 11: square lights of growing size at the same power, beside a point light; how wide the penumbra is."""
+"""Figure 11: a point light and square lights of growing size, all of the same power; how wide the penumbra is."""
 
 from __future__ import annotations
 
@@ -32,10 +32,10 @@ VIEW = FLOOR | {"eye": (2.9, 2.3, 2.0), "look_at": (-0.2, 0.2, 0.2), "up": (0.0,
 def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
     white = run.white("floor-0.5", share=99.9)
     strip = Strip(
-        "s", "Edge s of the light, all squares at the same power", [frame(run, found, size, white) for size in SIZES],
+        "s", "Edge s of the light, always the same power", [frame(run, found, size, white) for size in SIZES],
         ("From the side", "From below", "From outside"),
         note="Three boards hang over the receiver, their edges in line, from left to right with d₂/d₁ = 1/7, 1/3, 1. From the side, "
-        "the last one. The point light sends as much straight down, but has no cos θ′: four times the power of the others.", tells=SIZES.index(0.7),
+        "the last one. The point light has the power of the squares and sends it to all sides: a quarter as much straight down.", tells=SIZES.index(0.7),
     )  # fmt: skip
     curves = [
         curve_of(f"d₂/d₁ = {word}", FITTED, [found[f"w{s:g}-{n}"] for s in FITTED], partial(np.multiply, r), "line: s · d₂/d₁")
@@ -47,17 +47,17 @@ def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
         label=f"Width of the penumbra against s under three boards: {found['share']} of s times d₂/d₁.",
     )  # fmt: skip
     rows: dict[str, list[Quantity | str]] = {
-        f"{s:g}": [*(times(found[f"w{s:g}-{n}"], Quantity(1000.0)) for n in range(3)), f"{100 * found[f'below-{s:g}'].value:.1f}"]
+        f"{s:g}": [*(times(found[f"w{s:g}-{n}"], Quantity(1000.0)) for n in range(3)), f"{found[f'below-{s:g}'].value:.3f}"]
         for s in FITTED
     }  # fmt: skip
-    head, says = ("s [m]", *DISTANCE_RATIOS, "below [%]"), "Measured width of the penumbra [mm]"
-    note = f"{says} by s and d₂/d₁. Below: the light straight below, of that of the point light."
+    head, says = ("s [m]", *DISTANCE_RATIOS, "below"), "Measured width of the penumbra [mm]"
+    note = f"{says} by s and d₂/d₁. Below: the light straight below, over that of the point light."
     table = table_of(head, rows, f"{says} by s and d₂/d₁.", bare=True, note=note)
     return [strip, Plot(drawing, "Marks: measured, 95 % of 16 replicates. Lines: similar triangles.", table)]
 
 
 FIGURE = Figure(
-    number=11, chapter=3, title="A light that grows", seconds=Pick(5, 120),
+    number=11, chapter=3, title="A light that grows", seconds=Pick(4, 120),
     question=Question(
         "The light gets four times its area at the same power: its edge s doubles. How much wider does the penumbra become?",
         ("as wide as before", "twice as wide", "four times as wide"), 1, ("doubled",),
@@ -78,7 +78,7 @@ FIGURE = Figure(
         Claim("Twice the edge, twice as wide.", "doubled", near=2.0, within=0.02, measured="{doubled} times, three boards"),
         Claim("Seven times the d₂/d₁, seven times as wide.", "boards", near=7.0, within=0.05,
               measured="{boards} times, 1 against 1/7"),
-        Claim("Straight below, 1 m sends 92 % of the point light.", "below-1", near=irradiance_under(1.0, 2.0) * 4, within=0.003,
-              measured="{below-1:1}; closed form 92.33 %"),
+        Claim("Straight below, 1 m sends 3.69 times as much as the point light.", "below-1", near=irradiance_under(1.0, 2.0) * 16, within=0.01,
+              measured="{below-1} times; closed form 3.693"),
     ],
 )  # fmt: skip

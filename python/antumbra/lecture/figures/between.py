@@ -59,8 +59,8 @@ def _stage(run: Run, measured: Mapping[str, Quantity]) -> list[Strip]:
 FIGURE = Figure(
     number=6, chapter=2, title="Between the plane and the cylinder", seconds=Pick(3, 60),
     question=Question(
-        "A light hangs between a plane and a cylinder. A shadow ray that does not end at the light goes on until it meets something. "
-        "What does the picture show?",
+        "A plane falls until the light hangs between it and a cylinder. A shadow ray that does not end at the light goes on until it "
+        "meets something. What does the picture show then?",
         ("no difference", "a shadow on the plane, and a dark cylinder", "all is dark"), 1, ("width", "dark"),
     ),
     variants=[

@@ -36,7 +36,7 @@ def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
 
 
 FIGURE = Figure(
-    number=18, chapter=5, title="200 rays for a pixel", seconds=Pick(7, 70),
+    number=18, chapter=5, title="200 rays for a pixel", seconds=Pick(8, 70),
     question=Question(
         "200 rays for each pixel: one viewing ray through its centre with 199 shadow rays, or 100 viewing rays with one each. Which has the smaller error?",
         ("1 × 199 everywhere", "100 × 1 everywhere", "100 × 1 at edges, 1 × 199 in penumbras"), 2, ("edge", "penumbra"),

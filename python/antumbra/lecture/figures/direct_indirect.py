@@ -11,7 +11,7 @@ from antumbra.lecture.measures.ends import End, compared, end
 from antumbra.lecture.quantity import Quantity
 from antumbra.lecture.run import Run
 from antumbra.lecture.scenes import builtin
-from antumbra.lecture.sketches.ends import bounce, ends_compared, shares_plot
+from antumbra.lecture.sketches.ends import bounce, ends_compared, parts_of_light, shares_plot
 from antumbra.lecture.stages import Panel, Part, Plot, Strip, Tabs
 from antumbra.lecture.stages.quantities import table_of
 
@@ -40,8 +40,11 @@ def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
     white, light = run.white(f"depth-{LAST}", share=95), float(run.light(f"depth-{LAST}").mean())
     ends = ends_compared(run, _ends(run), list(ENDS.values()), light, WORK)
     strip = Strip("reflections", "Reflections on the way to the eye", [bounce(run, found, k, white) for k in DEPTHS],
-                  ("this alone", "all up to here"), tells=1)  # fmt: skip
-    tabs = Tabs("show", "What is shown", [Panel("bounces", "Bounce by bounce", [strip]), Panel("ends", "Where a path ends", [ends])])  # fmt: skip
+                  ("this alone", "all up to here"), tells=1, begins=LAST)  # fmt: skip
+    tabs = Tabs("show", "What is shown", [
+        Panel("bounces", "Bounce by bounce", [strip]), Panel("sum", "Direct + indirect", [parts_of_light(run, LAST, white)], late=True),
+        Panel("ends", "Where a path ends", [ends]),
+    ])  # fmt: skip
     rows = {str(k): (found[f"share-{k}"], found[f"left-{k}"]) for k in (1, 2, 4, 8)}
     cost = ", ".join(f"{words} {found[f'rays-{way}'].value:.1f}" for way, words in ENDS.items())
     table = table_of(("k", "share", "still to come"), rows, "Reflected light by number of reflections",
@@ -51,7 +54,7 @@ def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
 
 
 FIGURE = Figure(
-    number=19, chapter=5, title="After the first bounce", seconds=Pick(6, 120),
+    number=19, chapter=5, title="After the first bounce", seconds=Pick(5, 120),
     question=Question("Direct light is reflected once. How much of all the light that the walls of this box reflect to the eye is direct?",
                       ("about a quarter", "about a half", "nearly all"), 1, ("share-1",)),
     variants=[
@@ -62,7 +65,7 @@ FIGURE = Figure(
     measure=_measure, stage=_stage, exr=[f"depth-{LAST}"],
     answer=Number("share-1", "So much of the reflected light is direct. From the fourth on, each bounce brings {rate:1} of the one before; paths "
         "that end after 4 reflections lose {left-4:1} of it."),
-    equation=Equation([LATER_BOUNCES], "Marked: what a reflection does to light. Lₒ is the light of the lamps, plus once reflected, plus twice …"),
+    equation=Equation([LATER_BOUNCES], "Marked: light by its reflections, on a screen that of the picture. T: what a reflection does to light."),
     claims=[
         Claim("About half of the reflected light is direct.", "share-1", near=0.5, within=0.1, main=True, measured="{share-1}"),
         Claim("Roulette ends paths early and loses no light.", "kept", near=1.0, within=0.02, measured="ratio {kept} of the means"),

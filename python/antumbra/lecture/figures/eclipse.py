@@ -24,7 +24,7 @@ DISTANCES = [
 ]  # fmt: skip
 FAR, GROUND, EYE = DISTANCES[-1], 160.0, 20_000.0
 LOOK = {
-    "estimator": "area", "viewing_rays": Pick(4, 16), "shadow_rays": Pick(9, 8), "size": Pick((120, 120), (320, 320)),
+    "estimator": "area", "viewing_rays": Pick(4, 16), "shadow_rays": Pick(9, 8), "size": Pick((96, 96), (320, 320)),
 }  # fmt: skip
 ONE = {"viewing": "centre", "viewing_rays": 1, "shadow_rays": 1}
 VIEWS: dict[str, dict[str, Any]] = {
@@ -53,11 +53,12 @@ def _stage(run: Run, measured: Mapping[str, Quantity]) -> list[Part]:
         "Radii on the ground, measured in the map / from similar triangles. In the right picture the moon is drawn grey and the sky dark blue: "
         "in nature both are as dark as each other."
     )
-    return [moon_moved(run, SKY, DISTANCES, 2 * GROUND), regions_key("moon", (0, 1, 2, -1), note)]
+    moved = moon_moved(run, SKY, DISTANCES, 2 * GROUND, VIEWS["space"], tells=DISTANCES.index(390_000))
+    return [moved, regions_key("moon", (0, 1, 2, -1), note)]
 
 
 FIGURE = Figure(
-    number=3, chapter=1, title="Total or annular", seconds=Pick(6, 110),
+    number=3, chapter=1, title="Total or annular", seconds=Pick(5, 110),
     question=Question(
         "The moon's distance goes from 356,500 to 406,700 km. From which distance on does a ring of the sun stay visible?",
         ("370,000 km", "380,000 km", "400,000 km"), 1, ("length", "touches"),

@@ -48,7 +48,7 @@ def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
 
 
 FIGURE = Figure(
-    number=22, chapter=6, title="Light from all around", seconds=Pick(8, 90),
+    number=22, chapter=6, title="Light from all around", seconds=Pick(6, 90),
     question=Question("A small midday sun in a wide sky: directions are drawn from the BRDF of the table, or from the map. How many of the first are worth one of the second?",
                       ("about 10", "about 1,000", "more than 100,000"), 2, ("worth",)),
     variants=[

@@ -68,7 +68,7 @@ def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
 
 
 FIGURE = Figure(
-    number=20, chapter=5, title="By chance, or on purpose", seconds=Pick(7, 170),
+    number=20, chapter=5, title="By chance, or on purpose", seconds=Pick(6, 170),
     question=Question("Paths bounce until they meet the small lamp by chance. How many of them are worth one path that also asks the lamp at each bounce?",
                       ("about 3", "about 10", "about 100"), 2, ("paths",)),
     variants=[

@@ -29,7 +29,7 @@ LIGHTS = {
     "scan": ((1.0, 3.0, 1.0), ((0.8, 0.0, 0.0), (0.0, 0.0, 0.8))),
     "pillars": (PILLARS_LIGHT[0], PILLARS_LIGHT[1:]),
 }
-COUNTS, SIZE = (64, 256, 1024), Pick((36, 24), (64, 48))
+COUNTS, SIZE = (64, 256, 1024), Pick((30, 20), (64, 48))
 
 
 def _measure(run: Run) -> Mapping[str, Quantity]:

@@ -36,13 +36,17 @@ def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
         for (value, name, key, labels, note), strip in zip(shown, each, strict=True)
     ]
     return [
-        Tabs("show", "What is shown", [*panels, Panel("corner", "Near a corner", [near_a_corner(found)])]),
+        Tabs(
+            "show",
+            "What is shown",
+            [*panels, Panel("corner", "Near a corner", [near_a_corner(found)], late=True)],
+        ),
         plot(found, RATIOS, SHOWN),
     ]
 
 
 FIGURE = Figure(
-    number=10, chapter=3, title="Three ways to sample one integral", seconds=Pick(6, 140),
+    number=10, chapter=3, title="Three ways to sample one integral", seconds=Pick(4, 140),
     question=Question(
         "The light grows. Which share of the hemisphere, counted with cos θ, must it fill before random directions are better than random points of it?",
         ("10 %", "a third", "half", "two thirds"), 3, ("even",),

@@ -45,7 +45,7 @@ def _frame(run: Run, found: Mapping[str, Quantity], size: float, white: float) -
 def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
     white = run.white("truth-0.25")
     strip = Strip("size", "Edge of the square light, at constant power", [_frame(run, found, s, white) for s in SIZES],
-                  ("one shadow ray", "many", "noise of one"), tells=SIZES.index(1.0))  # fmt: skip
+                  ("one shadow ray", "many", "noise of one"), tells=SIZES.index(2.0), begins=SIZES.index(1.0))  # fmt: skip
     curves = [
         measured(name, SIZES, each, fit=[name == "lit" and s <= 1 for s in SIZES]) for name, each in _squares(run).items()
     ]  # fmt: skip
@@ -63,7 +63,7 @@ def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
 
 
 FIGURE = Figure(
-    number=15, chapter=4, title="How large a light", seconds=Pick(7, 85),
+    number=15, chapter=4, title="How large a light", seconds=Pick(2, 85),
     question=Question("One shadow ray per pixel. The edge of the square light is doubled from 1 to 2 m, at the same power. What happens to the noise of a penumbra pixel?",
                       ("it doubles", "it hardly changes", "it halves"), 1, ("penumbra-doubled",)),
     variants=[Variant(f"{kind}-{s}", builtin("pillars", light_size=s), options, count)

@@ -43,7 +43,7 @@ def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
 
 
 FIGURE = Figure(
-    number=21, chapter=5, title="A thousand lamps", seconds=Pick(8, 90),
+    number=21, chapter=5, title="A thousand lamps", seconds=Pick(6, 90),
     question=Question("One shadow ray to each of 1,000 lamps. Instead, each ray may go to a lamp drawn at random, all alike. How many rays have as little noise?",
                       ("1,000", "about 5,000", "more than 20,000"), 2, ("alike",)),
     variants=_variants(), measure=of_lamps, stage=_stage, exr=["all-1000", "contribution-1000"],

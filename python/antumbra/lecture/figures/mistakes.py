@@ -67,7 +67,7 @@ def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
 
 
 FIGURE = Figure(
-    number=16, chapter=4, title="One of three is right", seconds=Pick(5, 90),
+    number=16, chapter=4, title="One of three is right", seconds=Pick(2, 90),
     question=Question("The same room three times, each picture exposed for itself. Two of the estimators lack a term. Which picture is right?", "ABC", 1, ("found", "worst"), looks=True),
     variants=[
         Variant("area", ROOM, LOOK | {"estimator": "area"}), Variant("mis", ROOM, LOOK | {"estimator": "mis"}),

@@ -33,7 +33,7 @@ def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
 
 
 FIGURE = Figure(
-    number=14, chapter=4, title="Causes of noise", seconds=Pick(7, 100),
+    number=14, chapter=4, title="Causes of noise", seconds=Pick(3, 100),
     question=Question("Two equal windows light the pillars. A sample draws one of them, and a point on it. What makes most of its noise?",
                       ("whether the point is seen", "which window it is on", "where on the window it lies"), 1, ("light",)),
     variants=[Variant("one", two_windows(), ONE, Pick(48, 128))],

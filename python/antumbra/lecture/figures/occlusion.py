@@ -67,7 +67,7 @@ def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
 
 
 FIGURE = Figure(
-    number=23, chapter=6, title="How open is a point", seconds=Pick(7, 150),
+    number=23, chapter=6, title="How open is a point", seconds=Pick(4, 150),
     question=Question("64 directions for each point, random or well spread (owen). How many random ones are worth 64 well spread ones?",
                       ("64", "about 130", "about 500"), 2, ("worth",)),
     variants=[

@@ -33,7 +33,7 @@ def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
 
 
 FIGURE = Figure(
-    number=24, chapter=6, title="Openness at the vertices", seconds=Pick(9, 60),
+    number=24, chapter=6, title="Openness at the vertices", seconds=Pick(11, 60),
     question=Question("Openness is computed at vertices and blended between. Cells half as wide leave a quarter of the error. With a body on the floor, what do they leave?",
                       ("a quarter", "a half", "about 0.7"), 2, ("halved",)),
     variants=[], measure=errors_of_meshes, stage=_stage,

@@ -33,22 +33,22 @@ def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
     ]  # fmt: skip
     scene, densities = run.scene(SCENE), []
     for name, words in names:
-        density = drawn(scene, (1.5, 0.0, 1.5), PILLARS_LIGHT, name)
+        density = drawn(scene, PILLARS_LIGHT, 0.5, name)
         densities.append(run.map(density, f"Density on the light: {words}.", name, name=f"{name}-density",
-                                 ramp="amber", high=2.0, unit="uniform = 1", noise=True))  # fmt: skip
+                                 ramp="amber", high=3.0, unit="uniform = 1", noise=True))  # fmt: skip
     count = len(run.images("area"))
     tabs = tabs_of("show", "What is shown", {
         "picture": ("One picture", pictures), "mean": ("Mean − truth", off),
         "density": ("Density", densities),
     }, late=["mean"])  # fmt: skip
     rows = {f"{name}: {words}": (found[name], found[f"noise-{name}"]) for name, words in names}
-    note = f"{count} independent pictures of 4 rays a pixel each; maps of the mean against MIS, in % of white; table against random directions (hemisphere), in % of the light."
+    note = f"{count} independent pictures of 4 rays a pixel each; maps of the mean against MIS, in % of white; table against random directions (hemisphere), in % of the light. Densities for a point half a metre from the light; for the floor, metres away, nearest is nearly even."
     head = ("density", "mean − truth", "variance, uniform = 1")
     return [tabs, table_of(head, rows, "Error of the mean, and variance, of four densities", note=note)]
 
 
 FIGURE = Figure(
-    number=12, chapter=4, title="Four ways to draw a point", seconds=Pick(5, 60),
+    number=12, chapter=4, title="Four ways to draw a point", seconds=Pick(2, 60),
     question=Question("One of four densities never draws a quarter of the light. What does its picture show?",
                       ("more noise", "too little light, no more noise", "dark spots"), 1, ("hole", "noise-hole")),
     variants=[

@@ -54,7 +54,7 @@ def _stage(run: Run, measured: Mapping[str, Quantity]) -> list[Linked]:
 
 
 FIGURE = Figure(
-    number=8, chapter=2, title="One pixel, ray by ray", seconds=Pick(3, 25),
+    number=8, chapter=2, title="One pixel, ray by ray", seconds=Pick(2, 25),
     question=Question(
         "Nine shadow rays leave this pixel, one to each cell of the light, and some are blocked. How far is their sum from the integral, as a rule?",
         ("by 2 %", "by 20 %", "by 60 %"), 1, ("rule",),
@@ -64,7 +64,7 @@ FIGURE = Figure(
         Variant("pixel", three_pillars, ONE | {"crop": (*PIXEL, 1, 1)}, replicates=TIMES),
     ],
     measure=_measure, stage=_stage, exr=["scene"],
-    answer=Number("rule", "of the integral is what nine rays miss it by, as a rule: these say {value}, it is {integral:1}. "
+    answer=Number("rule", "of the integral: so far nine rays miss it, as a rule. These say {value}, it is {integral:1}. "
         "From ray to ray cos θ varies by {varies_cos}, r² by {varies_squared}, cos θ′ by {varies_cos_light}; V jumps."),
     equation=Equation([SUM], "Marked: one row of the table. Everything outside the mark is the same for all nine rays."),
     claims=[

@@ -22,7 +22,7 @@ INSIDE, OUTSIDE = (0.3, 0.0, 0.0), (0.95, 0.0, 0.0)
 # What closed forms say of R = 0.5 at x = 0.3: the lens of two disks, and the boundary integral of what is seen.
 VISIBLE, TRUE, PRODUCT = 0.5376215, 0.0994152, 0.0955001
 LOOK = {
-    "estimator": "area", "light_points": "area", "viewing_rays": Pick(64, 256), "size": Pick((96, 96), (256, 256)),
+    "estimator": "area", "light_points": "area", "viewing_rays": Pick(32, 256), "size": Pick((96, 96), (256, 256)),
     "aov": "visible-fraction,unshadowed-direct",
     "eye": (0.0, 0.98, 0.0), "look_at": (0.0, 0.0, 0.0), "up": (0.0, 0.0, -1.0), "fov": 2 * np.arctan(WIDTH / 2 / 0.98),
 }  # fmt: skip
@@ -45,7 +45,7 @@ def _stage(run: Run, measured: Mapping[str, Quantity]) -> list[Strip]:
 
 
 FIGURE = Figure(
-    number=4, chapter=1, title="Visibility times intensity", seconds=Pick(6, 120),
+    number=4, chapter=1, title="Visibility times intensity", seconds=Pick(5, 120),
     question=Question(
         "A point of the floor sees the share V of the light, and without the occluder it would get E. Does it get V · E?",
         ("yes", "some per cent more or less", "less than half of it"), 1, ("more",),

@@ -45,7 +45,7 @@ def _stage(run: Run, measured: Mapping[str, Quantity]) -> list[Part]:
 
 
 FIGURE = Figure(
-    number=2, chapter=1, title="Where the umbra ends", seconds=Pick(5, 110),
+    number=2, chapter=1, title="Where the umbra ends", seconds=Pick(6, 110),
     question=Question(
         "Move the receiver away from the occluder. How far behind it does the dark core vanish, and what is there afterwards?",
         ("g = 2, then only penumbra", "g = 4, then points that see a ring of the light", "never: it only shrinks"), 1, ("closes", "axis"),

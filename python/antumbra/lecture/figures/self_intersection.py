@@ -39,7 +39,7 @@ def _stage(run: Run, measured: Mapping[str, Quantity]) -> list[Part]:
 
 
 FIGURE = Figure(
-    number=7, chapter=2, title="Where a shadow ray starts", seconds=Pick(3, 12),
+    number=7, chapter=2, title="Where a shadow ray starts", seconds=Pick(2, 12),
     question=Question(
         "A shadow ray that starts at a rounded point may be blocked by the surface that it leaves. "
         "Why do viewing rays, computed with the same numbers, not suffer?",

@@ -65,7 +65,7 @@ def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
 
 
 FIGURE = Figure(
-    number=13, chapter=4, title="What a hundred shadow rays buy", seconds=Pick(8, 150),
+    number=13, chapter=4, title="What a hundred shadow rays buy", seconds=Pick(5, 150),
     question=Question("One shadow ray leaves noise. By what factor is it smaller with 100, if they are random?",
                       ("100", "10", "about 3"), 1, ("gain",)),
     variants=[

@@ -47,7 +47,7 @@ def _stage(run: Run, measured: Mapping[str, Quantity]) -> list[Strip]:
 
 
 FIGURE = Figure(
-    number=1, chapter=1, title="Where is the ball?", seconds=Pick(4, 80),
+    number=1, chapter=1, title="Where is the ball?", seconds=Pick(5, 80),
     question=Question(
         "The left ball is slid towards the eye and made smaller, so that it always covers the same pixels. "
         "Which of the two pictures tells?",

@@ -63,7 +63,7 @@ def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
 
 
 FIGURE = Figure(
-    number=9, chapter=3, title="How much of the sky is light", seconds=Pick(3, 20),
+    number=9, chapter=3, title="How much of the sky is light", seconds=Pick(2, 20),
     question=Question("A square light of 2 × 2 m hangs 1 m above the receiver. Which share of all directions upward finds it?", ("1/6", "1/4", "1/3", "1/2"), 2, ("share-square above",)),
     variants=[], measure=_measure, stage=_stage,
     answer=Number("share-square above", "of the directions find it: Ω = 2π/3. Points of its area, each counted with cos θ′/r², say {area-square above}."),

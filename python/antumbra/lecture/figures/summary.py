@@ -9,7 +9,7 @@ from antumbra.lecture.measures.summary import COUNTS, WAYS, of_ways
 from antumbra.lecture.quantity import Quantity
 from antumbra.lecture.run import Run
 from antumbra.lecture.scenes import PILLARS_VIEW, two_windows
-from antumbra.lecture.sketches.summary import one_by_one, sorted_tables
+from antumbra.lecture.sketches.summary import by_efficiency, one_by_one
 from antumbra.lecture.stages import Part
 
 LOOK = PILLARS_VIEW | {
@@ -25,12 +25,12 @@ LOOSE = 0.25
 
 
 def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
-    return [one_by_one(run, found), sorted_tables(run, found)]
+    return [one_by_one(run, found), by_efficiency(run, found)]
 
 
 FIGURE = Figure(
-    number=26, chapter=6, title="Every technique, one picture", seconds=Pick(8, 90),
-    question=Question("Twelve techniques, 64 samples a pixel each. How many times fewer samples than directions drawn evenly does the best one need for the same error?",
+    number=26, chapter=6, title="Every technique, one picture", seconds=Pick(5, 90),
+    question=Question("Fourteen techniques, 64 samples a pixel each. How many times fewer samples than directions drawn evenly does the best one need for the same error?",
                       ("about 50", "about 500", "more than 5,000"), 2, ("fewer",)),
     variants=[
         Variant("truth", two_windows(), TRUTH, 4, truth=True),
@@ -42,10 +42,10 @@ FIGURE = Figure(
                       "Marked: twice the samples halve one and double the other, so ε stays; but for samplers that do better than random."),
     claims=[
         Claim("The best technique needs less than 1/5,000 of the samples.", "fewer", above=5, main=True, measured="1 in {fewer:1}"),
-        Claim("The nine that draw points of lights have the true mean.", "off-points", near=1.0, within=0.01, measured="farthest: {off-points:1}"),
+        Claim("The eleven that draw points of lights have the true mean.", "off-points", near=1.0, within=0.01, measured="farthest: {off-points:1}"),
         Claim("So have the three others, as far as their noise lets see.", "off-directions", near=1.0, within=LOOSE,
               measured="farthest: {off-directions:1}"),
-        Claim("Under one square the variances are as known: by directions, cosine, points, solid angle.", "square", near=1.0, within=0.05,
+        Claim("Under one square the four known variances are met.", "square", near=1.0, within=0.05,
               measured="farthest: {square:1} of it"),
     ],
 )  # fmt: skip

@@ -64,7 +64,7 @@ def _stage(run: Run, found: Mapping[str, Quantity]) -> list[Part]:
 
 
 FIGURE = Figure(
-    number=17, chapter=5, title="A pixel and a light", seconds=Pick(7, 80),
+    number=17, chapter=5, title="A pixel and a light", seconds=Pick(6, 80),
     question=Question(
         "16 viewing rays fall evenly on the quarters of a pixel, their shadow rays on those of the light, drawn apart. How many of the 16 pairs of quarters occur?",
         ("all 16", "about 11", "about 4"), 1, ("pairs-two",),

@@ -23,7 +23,7 @@ _CALLS = 7
 # A start lies above its point by this part of the point's largest coordinate, as `occlusion_masks` has it.
 _LIFT = 2.0**-21
 # Pixels of the picture whose places ask for light.
-_PIXELS = Pick((192, 128), (384, 256))
+_PIXELS = Pick((108, 72), (384, 256))
 COUNTS = (1, 16, 64, 256)
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -42,15 +43,24 @@ def _gap(mean: Quantity, left_out: Quantity, truth: Quantity) -> Quantity:
 
 
 def drawn(
-    scene: Scene, point: Sequence[float], light: Sequence[NDArray[np.float64]], how: str
+    scene: Scene, light: Sequence[NDArray[np.float64]], distance: float, how: str
 ) -> NDArray[np.float64]:
-    """How densely points of a `light` (corner and two sides) are drawn from a point: (16, 16), 1 = uniform."""
+    """The density on a `light` (corner and two sides), (16, 16), uniform = 1, for a point in front of it.
+
+    The point lies at a `distance` [m] from the middle of the last quarter. n of N points that are drawn in a cell say
+    that ∫ p dA over it is n/N, and that its area is Σ 1/(N p): the mean of p is n / Σ 1/p.
+    """
     corner, u, v = light
+    normal = np.cross(u, v)
+    point = corner + 0.75 * (u + v) + distance * normal / np.linalg.norm(normal)
     grid = (np.stack(np.meshgrid(*[np.arange(256)] * 2), -1).reshape(-1, 2) + 0.5) / 256
-    points = np.tile(np.asarray(point, np.float64), (len(grid), 1))
     numbers = np.column_stack([np.full(len(grid), 0.1), grid])
-    found = scene.sample_light(points, (0.0, 1.0, 0.0), numbers, light_points=how)
-    at = [(found.target - corner) @ side / (side @ side) for side in (u, v)]
-    counts = np.histogram2d(at[1], at[0], bins=16, range=[[0, 1], [0, 1]])[0]
-    density: NDArray[np.float64] = counts * 256 / len(grid)
+    found = scene.sample_light(np.tile(point, (len(grid), 1)), (0.0, 1.0, 0.0), numbers, light_points=how)
+    down, right = ((found.target - corner) @ side / (side @ side) for side in (v, u))
+    cells: dict[str, Any] = {"bins": 16, "range": [[0, 1], [0, 1]]}
+    count = np.histogram2d(down, right, **cells)[0]
+    area = np.histogram2d(
+        down, right, weights=1.0 / (found.pdf_area * float(np.linalg.norm(normal))), **cells
+    )[0]
+    density: NDArray[np.float64] = np.divide(count, area, out=np.zeros_like(count), where=area > 0)
     return density

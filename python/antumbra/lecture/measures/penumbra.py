@@ -45,13 +45,13 @@ def board_widths(
     """Widths of the penumbra of each of the three boards, w`size`-`board` [m], for edges `sizes` of the light.
 
     share: over the prediction s d₂/d₁, of all of them; doubled: over the width at half the edge; boards: the last
-    board over the first, at the largest; below-`size`: the light straight below, over that of a point light.
+    board over the first, at the largest; below-`size`: the light straight below, over that of the point light.
     """
     ratios = list(DISTANCE_RATIOS.values())
     width = {(s, b): _board_widths(run, s, b, ratios[b]) for s in sizes for b in range(len(BOARDS))}
     twice = [width[b, n] / width[a, n] for a, b in doubled for n in range(len(BOARDS))]
     most, point = sizes[-1], _unshadowed(run, 0.0)
-    below = {s: ratio(_unshadowed(run, s), point, "%") for s in sizes}
+    below = {s: ratio(_unshadowed(run, s), point) for s in sizes}
     return {
         **{f"w{s:g}-{b}": _width(w, 2 * _half(ratios[b]) / run.pick(_COUNT)) for (s, b), w in width.items()},
         "doubled": mean_of(np.mean(twice, axis=0)),

@@ -22,11 +22,15 @@ from antumbra.study import statistics
 
 
 class Way(NamedTuple):
-    """A technique: its name, the options of `render` that make it, and how many samples a shadow ray of these means."""
+    """A technique: its name, the options of `render` that make it, and how many samples a shadow ray of these means.
+
+    `fixed`: it has no random numbers, so that its error is not seen in the scatter of replicates.
+    """
 
     name: str
     options: dict[str, Any]
     samples: int = 1
+    fixed: bool = False
 
     def of(self, count: int) -> dict[str, Any]:
         """The options for so many samples a pixel."""
@@ -43,8 +47,10 @@ WAYS: dict[str, Way] = {
     "area": Way("light points", _LIGHTS | {"lights": "uniform", "light_points": "area"}),
     "angle": Way("solid angle", _LIGHTS | {"lights": "uniform"}),
     "mis": Way("MIS", _CHOSEN | {"estimator": "mis"}, 2),
+    "power": Way("by power", _LIGHTS | {"lights": "power"}),
     "chosen": Way("contribution", _CHOSEN),
-    "turned": Way("regular", _CHOSEN | {"sampler": "regular", "rotate": True}),
+    "regular": Way("regular", _CHOSEN | {"sampler": "regular"}, fixed=True),
+    "turned": Way("regular, turned", _CHOSEN | {"sampler": "regular", "rotate": True}),
     "owen": Way("owen", _CHOSEN | {"sampler": "owen"}),
     "stratified": Way("stratified", _CHOSEN | {"sampler": "stratified"}),
     "each": Way("each light", _LIGHTS | {"lights": "all"}, 2),
@@ -91,12 +97,13 @@ def _of_way(run: Run, way: str) -> dict[str, Quantity]:
     """What 64 samples take and give.
 
     `rays` that are traced and `time` [µs] of a pixel; `error`: scatter of the replicates over the mean, for which no
-    truth is judge in its own cause; `mse`: its square; `mean` over that of the truth.
+    truth is judge in its own cause (of a fixed way, what it is off the truth); `mse`: its square; `mean` over that of
+    the truth.
     """
     key = f"{way}-{SAMPLES}"
     images, (each, truth) = run.images(key), of_lit_pixels(run, key, "truth")
     pixels = images[0].width * images[0].height
-    root = statistics.root(statistics.variance(each))
+    root = compared(run).rmse(way, SAMPLES) if WAYS[way].fixed else statistics.root(statistics.variance(each))
     return {
         "rays": Quantity(float(np.mean([image.rays + image.shadow_rays for image in images])) / pixels),
         "time": median_of([1e6 * seconds / pixels for seconds in _seconds(run, way)], "µs"),

@@ -10,10 +10,10 @@ from xml.etree import ElementTree
 # A colour that no equation uses stands for the mark on its way through the converter.
 _MARK = "magenta"
 # A line may break before these signs where they stand outside of all brackets, and after a wide space, but not
-# after fewer parts than this: a short left side stays with its equals sign.
+# after fewer parts than this: a short left side stays with its equals sign. A part of many signs is long by itself.
 _BREAKS = set("=≠≈≲⟹⇒+⋅·")
 _WIDE = ("1em", "2em")
-_SHORT = 5
+_SHORT, _LONG = 5, 12
 
 
 @cache
@@ -56,12 +56,17 @@ def _pieces(body: str) -> list[str]:
         depth += (sign in "([{") - (sign in ")]}")
         before = groups[-1]
         after_space = bool(before) and before[-1].get("width") in _WIDE and part.tag not in ("mspace", "mo")
-        if depth == 0 and (sign in _BREAKS or after_space) and len(before) >= _SHORT:
+        if depth == 0 and (sign in _BREAKS or after_space) and _is_long(before):
             if sign in _BREAKS:
                 part.set("form", "infix")
             groups.append([])
         groups[-1].append(part)
     return [f"<mrow>{''.join(map(_text, group))}</mrow>" for group in groups]
+
+
+def _is_long(parts: list[ElementTree.Element]) -> bool:
+    signs = sum(1 for part in parts for each in part.iter() if len(each) == 0)
+    return len(parts) >= _SHORT or signs >= _LONG
 
 
 def _text(part: ElementTree.Element) -> str:

@@ -1,20 +1,21 @@
-// The kinds of stage that a reader moves: sliders, tabs, rays with their table; and the copied command.
+// The kinds of stage that a reader moves: sliders, tabs, rays with their table, tables to sort; and the copied command.
 $$('.strip').forEach(s => {
-  const f = s.closest('.fig'), {key, tells} = s.dataset, range = $('input', s), output = $('output', s);
+  const f = s.closest('.fig'), {key, tells, at} = s.dataset, range = $('input', s), output = $('output', s);
   const frames = $$('.frames > li', s), drawings = $$('.draws > svg', s), i = D.createElement('i');
   let moved = false;
   const show = n => {
     [frames, drawings].forEach(each => each.forEach((e, j) => toggle(e, 'on', j == n)));
-    const {says, more, facts} = frames[n].dataset, [value, means] = says.split(/(:\s.*)/);
+    const {says, more, facts, term} = frames[n].dataset, [value, means] = says.split(/(:\s.*)/);
     range.value = n;
     i.textContent = means;
     output.replaceChildren(value, i);
     range.ariaValueText = f.classList.contains('told') ? says + (more || '') : value;
+    if (term) $$('.hl', f).forEach((e, j) => toggle(e, 'off', j != term));
     [n - 1, n + 1].forEach(j => frames[j] && $$('img', frames[j]).forEach(m => m.loading = 'eager'));
     $$(`.key[data-of="${key}"] [data-i]`, f).forEach(e => e.textContent = JSON.parse(facts || '[]')[e.dataset.i]);
   };
   // Until somebody moves it, it stands where nothing is given away, then where the number is seen.
-  const settle = () => show(moved ? +range.value : +(f.classList.contains('told') ? tells : 0));
+  const settle = () => show(moved ? +range.value : +(f.classList.contains('told') ? tells : at));
   range.oninput = () => { moved = true; settle(); set(f, key, frames[range.value].dataset.v) };
   const to = v => { const n = frames.findIndex(l => l.dataset.v == v); moved = n >= 0; if (moved) range.value = n; settle() };
   controls.push({f, key, to, settle});
@@ -47,6 +48,14 @@ $$('.px').forEach(s => {
     e.onclick = () => { hot(j); set(f, key, j) };
   });
   controls.push({f, key, to: hot});
+});
+// A table's rows by the column whose head is pressed: the largest first, pressed again the smallest.
+$$('thead button').forEach(b => b.onclick = () => {
+  const h = b.parentNode, t = h.closest('table'), up = h.ariaSort == 'descending';
+  const at = r => parseFloat(r.cells[h.cellIndex].textContent.replace(/,/g, ''));
+  $$('th', t).forEach(e => e.ariaSort = null);
+  h.ariaSort = up ? 'ascending' : 'descending';
+  t.tBodies[0].append(...$$('tbody tr', t).sort((p, q) => (at(p) - at(q)) * (up || -1)));
 });
 $$('.cmd button').forEach(b => b.onclick = async () => {
   const command = b.previousElementSibling;

@@ -19,8 +19,8 @@ DISTANCE_RATIOS = {"1/7": 1 / 7, "1/3": 1 / 3, "1": 1.0}
 def boards_under_square(size: float, intensity: float = 4.0) -> SceneOf:
     """Boards that end at x = 0 under a square light of edge `size` in y = 2; 0 is a point light.
 
-    All squares have the power π · `intensity`: radiance = `intensity` / size², so that a small one sends `intensity`
-    [W/sr] straight down. So does the point, which sends as much to all sides: 4π · `intensity`.
+    All have the power π · `intensity`: radiance = `intensity` / size², so that a small square sends `intensity`
+    [W/sr] straight down. The point sends its power to all sides alike, `intensity` / 4 straight down.
     All edges lie under the middle of the light.
     """
 
@@ -33,7 +33,7 @@ def boards_under_square(size: float, intensity: float = 4.0) -> SceneOf:
         if size > 0:
             scene.add_light(square_light(size, LIGHT_HEIGHT, intensity / size**2), name="light")
         else:
-            scene.add_light(am.lights.Point((0.0, LIGHT_HEIGHT, 0.0), intensity), name="light")
+            scene.add_light(am.lights.Point((0.0, LIGHT_HEIGHT, 0.0), intensity / 4), name="light")
         return scene
 
     return build

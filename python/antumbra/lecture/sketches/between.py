@@ -21,9 +21,10 @@ def plane_moved(
     falling = sorted(heights, reverse=True)
     frames = [_frame(run, height, start, p, cylinder, white) for height in falling]
     label = "Height of the plane [m]; the light is at 0, the cylinder above it"
-    labels = ("seen along the cylinder", "--distance-test off", "on")
+    labels = ("side view", "test off", "test on")
     note = (
-        "Green: the part from p to the light, t from 0 to 1. Orange: what a ray without end goes on to find."
+        "Green: the part from p to the light, t from 0 to 1. Orange: what a ray without end goes on to find. "
+        "Test off: --distance-test off."
     )
     return Strip("plane", label, frames, labels, note=note, tells=falling.index(start))
 
@@ -57,7 +58,7 @@ def along_the_cylinder(p: Point, plane: float, axis: float, radius: float) -> Dr
 
     t = (p[1] - plane) / p[1]
     start, light, end = at(*p), at(0, 0), at(p[0] * (1 - t), plane)
-    sketch = Sketch(440, 280, ground=LIT)
+    sketch = Sketch(452, 280, ground=LIT)
     if t > 1:
         _false_shadow(sketch, at, plane, axis, radius)
     sketch.line(at(-1.1, plane), at(1.1, plane), width=3)
@@ -75,7 +76,7 @@ def along_the_cylinder(p: Point, plane: float, axis: float, radius: float) -> Dr
     low = -100.0
     for (x, y), words in sorted(marks, key=lambda mark: mark[0][1]):
         low = max(low + 36, y)
-        sketch.line((x + 9, y), (184, low), colour=SOFT, dash="1 3").text((190, low + 5), words)
+        sketch.line((x + 9, y), (180, low), colour=SOFT, dash="1 3").text((184, low + 5), words)
     return sketch.done(f"The ray from p through the light, at t = 1, meets the plane at t = {t:.2f}.")
 
 

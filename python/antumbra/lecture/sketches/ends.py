@@ -11,7 +11,7 @@ from antumbra.lecture.measures.bounces import light_of
 from antumbra.lecture.measures.ends import End, rmse
 from antumbra.lecture.quantity import Quantity
 from antumbra.lecture.run import Run
-from antumbra.lecture.stages import Frame, Picture, Strip
+from antumbra.lecture.stages import Frame, Picture, Row, Strip
 from antumbra.lecture.stages.quantities import curve_of
 from antumbra.study.plot import error_curves
 
@@ -30,7 +30,23 @@ def bounce(run: Run, found: Mapping[str, Quantity], k: int, white: float) -> Fra
         run.picture(light_of(run, k), alone, name=f"only-{k}", white=white, colour=True),
         run.picture(f"depth-{k}", up_to, name=f"sum-{k}", white=white, colour=True),
     ]
-    return Frame(str(k), says, pictures, short=str(k))
+    return Frame(str(k), says, pictures, short=str(k), term=min(k, 3))
+
+
+def parts_of_light(run: Run, last: int, white: float) -> Row:
+    """Direct light, indirect light and their sum, at one scale."""
+    lights = {
+        "direct": ("direct: T Lₑ", light_of(run, 1)),
+        "indirect": ("+ indirect: T² Lₑ + …", run.pixels(f"depth-{last}") - run.pixels("depth-1")),
+        "reflected": ("= reflected", run.pixels(f"depth-{last}") - run.pixels("depth-0")),
+    }
+    return Row([
+        run.picture(
+            np.maximum(light, 0.0), f"The {name} light of the box.", caption, name=f"light-{name}", white=white,
+            colour=True,
+        )
+        for name, (caption, light) in lights.items()
+    ])  # fmt: skip
 
 
 def shares_plot(found: Mapping[str, Quantity], last: int) -> str:

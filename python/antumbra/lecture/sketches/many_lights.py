@@ -39,7 +39,7 @@ def lamps(run: Run, counts: Sequence[int]) -> Strip:
         "unshadowed. A lamp below the horizon gets no ray."
     )
     label = "Lamps, their power together the same"
-    return Strip("lamps", label, frames, labels, note=note, tells=counts.index(MOST))
+    return Strip("lamps", label, frames, labels, note=note, tells=counts.index(MOST), begins=counts.index(10))
 
 
 def plot(run: Run, found: Mapping[str, Quantity]) -> str:

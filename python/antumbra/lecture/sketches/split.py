@@ -102,7 +102,7 @@ def noise_plot(run: Run, found: Mapping[str, Quantity], white: float) -> str:
     for where in CROPS:
         centred = found[f"error-centre{RAYS - 1}-{where}"]
         low, high = centred.interval
-        curves.append(Curve(f"{where} ○", [RAYS - 1], [centred.value], [low], [high], hollow=[True]))
+        curves.append(Curve(f"{where} ○", [RAYS - 1], [centred.value], [low], [high], hollow=[True]))
     return error_curves(
         curves, x_title="shadow rays of each viewing ray, N", y_title=f"error over white, {RAYS} rays",
         chosen="penumbra", x_ticks=[1, 4, 19, 49, 199], y_ticks=[0.2, 0.1, 0.05, 0.02, 0.01],

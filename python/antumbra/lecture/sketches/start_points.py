@@ -46,7 +46,7 @@ def _frame(
         alt = f"In {file}, {_says(start)}: {measured[f'wrong_{file}_{start}']:v} of the pixels are wrong."
         pictures.append(run.picture(shown, alt, name=f"{start}-{file}", white=white, tones=96, noise=True))
         lost = _lost(measured[f"foot_{file}_{start}"])
-        facts.append(f"false shadow {written(100 * false.value, 2)} %, contact lost {lost}")
+        facts.append(f"false shadow {written(100 * false.value, 2)} % of lit, contact lost {lost}")
     wrong = ", ".join(f"{100 * measured[f'wrong_{file}_{start}'].value:.1f}" for file in files)
     return Frame(start, f"{_says(start)}: {wrong} % of pixels wrong", pictures, _says(start), facts=facts)
 

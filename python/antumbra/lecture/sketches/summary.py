@@ -1,8 +1,8 @@
-"""Every technique on one scene: its picture, where it is off, and a table of all in several orders."""
+"""Every technique on one scene: its picture, where it is off, and a table of all, to sort."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -13,7 +13,7 @@ from antumbra.lecture.measures.summary import BEST, COUNTS, FIRST, SAMPLES, WAYS
 from antumbra.lecture.pictures import RAMPS, linear, ramp_colours
 from antumbra.lecture.quantity import Quantity
 from antumbra.lecture.run import Run
-from antumbra.lecture.stages import Frame, Panel, Plot, Strip, Table, Tabs
+from antumbra.lecture.stages import Frame, Plot, Strip
 from antumbra.lecture.stages.quantities import table_of
 from antumbra.study.plot import error_curves, measured
 
@@ -26,7 +26,7 @@ _HIGH = 0.3
 def one_by_one(run: Run, found: Mapping[str, Quantity]) -> Strip:
     """A slider over the techniques: the picture of each, and beside it its RMS error by pixel, in parts of white."""
     white, truth, frames = run.white("truth", share=99), run.light("truth"), []
-    for way, (name, _, _) in WAYS.items():
+    for way, (name, *_) in WAYS.items():
         key, error = f"{way}-{SAMPLES}", found[f"error-{way}"]
         off = np.sqrt(((luminances(run, key) - truth) ** 2).mean(0)) / white
         both = _side_by_side(run.image(key).pixels / white, off / _HIGH)
@@ -44,34 +44,27 @@ def _side_by_side(picture: ArrayLike, share: NDArray[np.float64]) -> NDArray[np.
     return np.concatenate([np.asarray(picture, np.float64), right], axis=1)
 
 
-def sorted_tables(run: Run, found: Mapping[str, Quantity]) -> Plot:
-    """Curves of all techniques, and their table, a tab for each order of it."""
-    orders: dict[str, tuple[str, Callable[[str], float]]] = {
-        "efficiency": ("by efficiency", lambda way: -found[f"second-{way}"].value),
-        "error": ("by error", lambda way: found[f"error-{way}"].value),
-        "time": ("by time", lambda way: found[f"time-{way}"].value),
-        "taught": ("as taught", lambda way: float([*WAYS].index(way))),
-    }
+def by_efficiency(run: Run, found: Mapping[str, Quantity]) -> Plot:
+    """Curves of some techniques, and the table of all; a reader may sort it by another column."""
     scatter = max(q.error / q.value for name, q in found.items() if name.startswith("time-"))
     note = (
         f"{SAMPLES} samples a pixel: rays that are traced (none where a direction meets no light), time, scatter over "
-        "the mean; 1/scatter² per sample and per second, the first technique being 1. Times are medians, sure to "
+        "the mean (regular: off the truth); 1/scatter² per sample and per second, the first technique being 1. "
+        "Times are medians, sure to "
         f"{100 * scatter:.0f} % in this run. Beside each picture its RMSE, brightest from {_HIGH:.0%} of white."
     )
-
-    def table(of: Callable[[str], float]) -> Table:
-        rows: dict[str, list[Quantity | str]] = {}
-        for way in sorted(WAYS, key=of):
-            each = [found[f"{what}-{way}"] for what in ("rays", "time", "sample", "second")]
-            rays, time, sample, second = (written(q.value, 2) for q in each)
-            rows[WAYS[way].name] = [rays, time, found[f"error-{way}"], sample, second]
-        head = ("technique", "rays", "µs", "error [%]", "per N", "per s")
-        return table_of(
-            head, rows, "Rays, time, error and efficiency of each technique", bare=True, fine=(1, 2)
-        )
-
-    panels = [Panel(key, name, [table(of)]) for key, (name, of) in orders.items()]
-    return Plot(_curves(run), note, Tabs("order", "Order", panels))
+    rows: dict[str, list[Quantity | str]] = {}
+    for way in sorted(WAYS, key=lambda way: -found[f"second-{way}"].value):
+        each = [found[f"{what}-{way}"] for what in ("rays", "time", "sample", "second")]
+        rays, time, sample, second = (written(q.value, 2) for q in each)
+        rows[WAYS[way].name] = [rays, time, found[f"error-{way}"], sample, second]
+    head = ("technique", "rays", "µs", "error [%]", "per N", "per s")
+    caption = "Rays, time, error and efficiency of each technique"
+    return Plot(
+        _curves(run),
+        note,
+        table_of(head, rows, caption, bare=True, fine=(1, 2), sorted_by=head.index("per s")),
+    )
 
 
 def _curves(run: Run) -> str:

@@ -25,6 +25,7 @@ def table_of(
     fine: Sequence[int] = (),
     note: str = "",
     bare: bool = False,
+    sorted_by: int = 0,
 ) -> Table:
     """A table with a row of quantities for each name, errors with one digit; `bare`: units stand in the head."""
 
@@ -34,7 +35,7 @@ def table_of(
         return " ± ".join(filter(None, of.number(1))) if bare else f"{of:1}"
 
     text = [[name, *map(cell, cells)] for name, cells in rows.items()]
-    return Table(head, text, caption, foot, fine, note)
+    return Table(head, text, caption, foot, fine, note, sorted_by)
 
 
 def tabs_of(

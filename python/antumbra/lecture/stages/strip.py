@@ -13,7 +13,8 @@ class Frame(Part):
     """One position of a slider.
 
     `value`: as it stands in the address; `says`: the readout, the value and what it means; `more`: added for the ear;
-    `short`: on paper; `drawing` beside the pictures; `facts`: for the entries of a `Key` of the same figure.
+    `short`: on paper; `drawing` beside the pictures; `facts`: for the entries of a `Key` of the same figure; `term`:
+    which marked term of the figure's equation is lit (−1: all).
     """
 
     kind = "frame"
@@ -24,14 +25,15 @@ class Frame(Part):
     more: str = ""
     drawing: Drawing | None = None
     facts: Sequence[str] = ()
+    term: int = -1
 
 
 @dataclass(frozen=True)
 class Strip(Part):
     """12–16 frames: `key` names the value in the address, `label` the slider, `labels` what stands over the columns.
 
-    The first frame is seen first and gives no answer away; six frames are printed, that among them which `tells` what
-    the numbers are of (−1: none in particular).
+    The frame `begins` is seen first and gives no answer away; six frames are printed, that among them which `tells`
+    what the numbers are of (−1: none in particular).
     """
 
     kind = "strip"
@@ -41,6 +43,7 @@ class Strip(Part):
     labels: Sequence[str] = ()
     note: str = ""
     tells: int = -1
+    begins: int = 0
 
     def __post_init__(self) -> None:
         """All frames have the same columns, and the values differ."""

@@ -12,7 +12,8 @@ from antumbra.lecture.stages.base import Part
 class Table(Part):
     """`head` over the columns, `rows` of text (the first cell names the row), a `foot` row, a `caption` that says what.
 
-    `fine`: numbers of columns that a phone leaves out; `note`: a line under it.
+    `fine`: numbers of columns that slides leave out, and paper if there are many; `note`: a line under it; `sorted`:
+    the column by which the rows stand, largest first, where a reader may sort by another one (0: not to be sorted).
     """
 
     kind = "table"
@@ -23,6 +24,7 @@ class Table(Part):
     foot: Sequence[str] = ()
     fine: Sequence[int] = ()
     note: str = ""
+    sorted: int = 0
 
     def __post_init__(self) -> None:
         """Every row has as many cells as there are columns."""
