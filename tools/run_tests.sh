@@ -4,7 +4,8 @@ set -uo pipefail
 cd "$(dirname "$0")/.."
 log=$(mktemp); trap 'rm -f "$log"' EXIT
 ok=0
-cargo test --locked --profile demo --quiet 2>&1 | tee -a "$log" || ok=1
+# With --workspace the dependencies have the features that the installed core was built with: nothing is compiled twice.
+cargo test --locked --profile demo --workspace --quiet 2>&1 | tee -a "$log" || ok=1
 # Two at a time: most of a test is Python and a browser, which know one core. A file stays together, so do its pictures.
 .venv/bin/python -m pytest -n 2 --dist loadfile 2>&1 | tee -a "$log" || ok=1
 awk -v ok=$ok '

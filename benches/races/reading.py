@@ -1,6 +1,7 @@
-"""Reading a PLY of 10⁶ triangles and a GLB of 100 MB: bytes to scene builder, against reading the bytes.
+"""Reading a PLY of 10⁶ triangles, a GLB and an STL of 100 MB, and text of 100 MB: bytes to scene builder.
 
-Runs the bench of crates/antumbra-io; there is no peer but the copy of the bytes from the warm page cache.
+Runs the bench of crates/antumbra-io. Binary files race the copy of their bytes from the warm page cache; text has a
+rate to reach. One thread.
 """
 
 from __future__ import annotations
@@ -8,6 +9,8 @@ from __future__ import annotations
 from race import Row, cargo_bench, options, report, spread
 
 NUMBER, TARGET = "14", 5.0
+# MB/s of text.
+LEAST = 100.0
 
 
 def main() -> None:
@@ -18,11 +21,23 @@ def main() -> None:
     rows = []
     for one in found:
         work = f"{one['name']}, {one['bytes'] / 1e6:.0f} MB, {one['triangles']:,} triangles"
-        measure = "time from bytes to builder / time to read the bytes"
-        fields = spread([b / a for a, b in zip(one["reading"], one["building"], strict=True)])
-        row = Row(
-            "reading", NUMBER, work, "reading the bytes", 1, measure, **fields, target=TARGET, bound="most"
-        )
+        if one["name"].startswith("text."):
+            fields = spread([one["bytes"] / 1e6 / seconds for seconds in one["building"]])
+            row = Row("reading", NUMBER, work, "none", 1, "MB/s", **fields, target=LEAST)
+        else:
+            measure = "time from bytes to builder / time to read the bytes"
+            fields = spread([b / a for a, b in zip(one["reading"], one["building"], strict=True)])
+            row = Row(
+                "reading",
+                NUMBER,
+                work,
+                "reading the bytes",
+                1,
+                measure,
+                **fields,
+                target=TARGET,
+                bound="most",
+            )
         row.more = {
             f"{key} ms": round(1e3 * spread(one[key])["median"], 1) for key in ("reading", "building")
         }

@@ -262,6 +262,7 @@ def test_every_light_shape_and_material_is_made():
     m, s = am.materials, am.shapes
     looks = [
         m.Diffuse(0.2),
+        m.DiffuseTransmission(0.2, (0.5, 0.3, 0.1)),
         m.Mirror(0.9),
         m.MetallicRoughness((1, 0.8, 0.3), 1.0, 0.3),
         m.Conductor("au"),
@@ -311,6 +312,21 @@ def test_an_environment_of_pixels_shines_from_where_they_are():
     # Student's t with 15 degrees of freedom, α = 1e-6; 1 % for the picture's bilinear edge at the horizon.
     assert abs(found[0, 0] - math.pi) < 7.9 * found.standard_error[0, 0] + 0.01 * math.pi
     assert found[1, 0] < 0.02 * math.pi
+
+
+@pytest.mark.parametrize("azimuth", [0.0, math.pi / 2, -2.5])
+def test_an_environment_is_turned_clockwise_and_its_pixels_may_be_patches(azimuth):
+    """One of four columns is bright, φ = 0 … π/2: E = L ∫ cos φ dφ ∫ sin² θ dθ = √2 · π/2 toward its middle."""
+    picture = np.zeros((1, 4, 3))
+    picture[:, 0] = 1.0
+    scene = am.Scene()
+    scene.add_light(am.lights.Environment(picture, azimuth=azimuth, nearest=True))
+    middle = math.pi / 4 + azimuth
+    toward = np.array([[math.sin(middle), 0, -math.cos(middle)]])
+    found = scene.irradiance(np.zeros((2, 3)), np.concatenate([toward, -toward]), shadow_rays=1024)
+    # Student's t with 15 degrees of freedom, α = 1e-6; 10⁻³ for the table's cells.
+    assert abs(found[0, 0] - math.pi / math.sqrt(2)) < 7.9 * found.standard_error[0, 0] + 1e-3
+    assert found[1, 0] == 0
 
 
 def test_progress_is_told_and_can_stop():

@@ -164,7 +164,7 @@ UP = np.array([0.0, 1.0, 0.0])
         (
             lambda s: s.add_mesh(SQUARE, FACES, material="red"),
             TypeError,
-            "material is 'red': one of antumbra.materials is needed (Diffuse, Mirror, ",
+            "material is 'red': one of antumbra.materials is needed (Diffuse, ",
         ),
         (
             lambda s: s.add_mesh(SQUARE, FACES, material=am.materials.Mirror),

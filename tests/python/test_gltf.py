@@ -99,6 +99,20 @@ def test_an_unknown_variant_lists_those_that_exist(antumbra, tmp_path, moving, d
         am.load(data / "scenes/mesh/spot.obj", variant="oak")
 
 
+def test_a_scene_that_takes_more_than_it_may_is_refused_early(antumbra, data):
+    cow = data / "scenes/mesh/spot.obj"
+    with pytest.raises(
+        am.SceneError, match=r"would take about 863\.6 KiB of memory or more for 5856 triangles"
+    ) as caught:
+        am.load(cow, max_memory=700 * 1024)
+    assert "--max-memory" in caught.value.hint
+    assert am.load(cow, max_memory="1M").info()["triangles"] == 5856
+    ended = antumbra("info", str(cow), "--max-memory", "100K")
+    assert ended.code == 2 and "the limit is 100.0 KiB" in ended.err
+    ended = antumbra("render", str(cow), "--max-memory", "lots")
+    assert ended.code == 2 and "500M, 4G" in ended.err
+
+
 SMALL = (
     "--size",
     "24x16",

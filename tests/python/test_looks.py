@@ -41,6 +41,18 @@ def test_a_rough_pane_spreads_what_it_lets_through():
         assert 1 - lost <= mean <= 1 + 1e-5, roughness
 
 
+def test_cloth_passes_light_on_to_its_other_side():
+    """Under a far light of irradiance π: ρ from above, τ from below; what is more than 1 together is scaled down."""
+    for (rho, tau), seen_as in (((0.2, 0.6), (0.2, 0.6)), ((0.6, 0.9), (0.4, 0.6))):
+        scene = am.Scene()
+        corners = [[-9, 0, -9], [9, 0, -9], [9, 0, 9.0], [-9, 0, 9]]
+        cloth = am.materials.DiffuseTransmission(rho, tau)
+        scene.add_mesh(corners, [[0, 2, 1], [0, 3, 2]], material=cloth)
+        scene.add_light(am.lights.Directional((0, 1, 0), np.pi))
+        for height, share in zip((2, -2), seen_as, strict=True):
+            assert np.allclose(seen(scene, height, viewing_rays=1).pixels, share, rtol=1e-5)
+
+
 def dots():
     """White dots of radius 0.05 on black in the planes z = 0 and z = -4, about the axis of the camera."""
     scene = am.Scene()
