@@ -45,10 +45,13 @@ OCCLUSION = (
     r"\text{AO}(p) = \frac{1}{\pi} \int_{\Omega} \mark{V(p, \omega)} \, \cos\theta \, \text{d}\omega \approx \frac{1}{N} \sum_{j=1}^{N} \mark{V(p, \omega_j)}",
     "AO(p) = (1/π) ∫ over the hemisphere of V(p, ω) cos θ dω ≈ (1/N) · sum over N directions of V(p, ω)",
 )
-LATER_BOUNCES = (
-    r"L_o = \mark{L_e} + \mark{T L_e} + \mark{T^2 L_e} + \mark{\dots}, \qquad (T L)(p) = \int_{\Omega} f_r \, L(p') \, \cos\theta \, \text{d}\omega",
-    "L_o = L_e + T L_e + T² L_e + …, where (T L)(p) = ∫ over the hemisphere of f_r L(p′) cos θ dω",
-)
+LATER_BOUNCES = [
+    (r"L_o = \mark{L_e} + \mark{T L_e} + \mark{T^2 L_e} + \mark{\dots}", "L_o = L_e + T L_e + T² L_e + …"),
+    (
+        r"(T L)(p) = \int_{\Omega} f_r \, L(p') \, \cos\theta \, \text{d}\omega",
+        "where (T L)(p) = ∫ over the hemisphere of f_r L(p′) cos θ dω",
+    ),
+]
 
 _SIZE = Pick((280, 196), (560, 392))
 _VIEW = {"size": _SIZE, "eye": (-7.4, 5.6, 5.4), "look_at": (0.3, 0.55, 0.3), "fov": 0.5}

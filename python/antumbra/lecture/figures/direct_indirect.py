@@ -65,7 +65,7 @@ FIGURE = Figure(
     measure=_measure, stage=_stage, exr=[f"depth-{LAST}"],
     answer=Number("share-1", "So much of the reflected light is direct. From the fourth on, each bounce brings {rate:1} of the one before; paths "
         "that end after 4 reflections lose {left-4:1} of it."),
-    equation=Equation([LATER_BOUNCES], "Marked: light by its reflections, on a screen that of the picture. T: what a reflection does to light."),
+    equation=Equation(LATER_BOUNCES, "Marked: light by its reflections, on a screen that of the picture. T: what a reflection does to light."),
     claims=[
         Claim("About half of the reflected light is direct.", "share-1", near=0.5, within=0.1, main=True, measured="{share-1}"),
         Claim("Roulette ends paths early and loses no light.", "kept", near=1.0, within=0.02, measured="ratio {kept} of the means"),
