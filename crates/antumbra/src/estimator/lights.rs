@@ -30,7 +30,8 @@ pub enum LightChoice {
 
 /// `auto` asks every light up to this number.
 const AUTO_ALL: usize = 4;
-/// `contribution` looks at every light: beyond this number `auto` takes `power`.
+/// `contribution` looks at every light, which beyond this number takes longer than shadow rays save: there `auto` takes
+/// `power`.
 const AUTO_CONTRIBUTION: usize = 1024;
 
 /// The lights of a scene, ready to be drawn.

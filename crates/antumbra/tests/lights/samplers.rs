@@ -130,6 +130,29 @@ fn ends_of_the_range() {
     let below = vec![Light::from(Point { position: -World::Y, intensity: Rgb::WHITE })];
     let sampler = LightSampler::new(Choose::Contribution, &below, RADIUS);
     assert_eq!(sampler.prepare(&below, &at, &mut scratch).pick(0.5), None);
-    let many = vec![Light::from(Point { position: World::Y, intensity: Rgb::WHITE }); 1025];
+    let many = vec![Light::from(Point { position: World::Y, intensity: Rgb::WHITE }); (1 << 20) + 1];
     assert_eq!(LightSampler::new(Choose::Contribution, &many, RADIUS).kind(), Choose::Power);
+}
+
+/// Among 10⁵ points at one place each has its share of their intensities, to two of the 2²⁴ steps: one that each has at
+/// least, one of rounding; so 10⁵ of those steps of each share are spread evenly, 0.6 %.
+#[test]
+fn contribution_weighs_a_hundred_thousand() {
+    let intensity = |k: u32| (k % 7) as f32;
+    let lights: Vec<Light> = (0..100_000)
+        .map(|k| Point { position: World::Y, intensity: Rgb::grey(intensity(k)) }.into())
+        .collect();
+    let at = receiver([0.0; 3], [0.0, 1.0, 0.0]);
+    let sampler = LightSampler::new(Choose::Contribution, &lights, RADIUS);
+    assert_eq!(sampler.kind(), Choose::Contribution);
+    let mut scratch = Scratch::default();
+    let chooser = sampler.prepare(&lights, &at, &mut scratch);
+    let total: f64 = (0..100_000).map(|k| f64::from(intensity(k))).sum();
+    let mut sum = 0.0;
+    for k in 0..100_000 {
+        let (p, share) = (f64::from(chooser.prob(k)), f64::from(intensity(k)) / total);
+        assert!((p - share).abs() <= 2.0 / f64::from(1 << 24) + 0.006 * share, "light {k}: {p}, not {share}");
+        sum += p;
+    }
+    assert_eq!(sum, 1.0);
 }

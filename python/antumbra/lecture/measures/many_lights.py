@@ -23,10 +23,8 @@ from antumbra.study import statistics
 
 # How a lamp is drawn: all alike, in proportion to its power, to what it would give the receiver; or a ray to each.
 WAYS = ("uniform", "power", "contribution", "all")
-# Ways whose time does not grow with the lamps.
-ANY_NUMBER = ("uniform", "power")
 LAMPS = Pick([10, 100, 1000, 10_000], [10, 100, 1000, 10_000, 100_000])
-# More lamps are not weighed one by one for each receiver, nor asked one by one here.
+# More lamps are not asked one by one here.
 MOST = 1000
 # Rays of a pixel where a lamp is drawn for each.
 RAYS = 16
@@ -36,7 +34,7 @@ NOISE = 0.1
 
 def measured(run: Run, way: str) -> list[int]:
     """The numbers of lamps for which a way is measured."""
-    return [k for k in run.pick(LAMPS) if k <= MOST or way in ANY_NUMBER]
+    return [k for k in run.pick(LAMPS) if k <= MOST or way != "all"]
 
 
 def lit(run: Run, key: str) -> NDArray[np.float64]:
@@ -50,7 +48,7 @@ def _noise(run: Run, way: str, lamps: int) -> Quantity:
     One mean for all ways, that of the least noise among those that are measured.
     """
     found = statistics.root(statistics.variance(lit(run, f"{way}-{lamps}")))
-    mean = lit(run, f"{'all' if lamps <= MOST else 'power'}-{lamps}").mean()
+    mean = lit(run, f"{'all' if lamps <= MOST else 'contribution'}-{lamps}").mean()
     scale = (1 if way == "all" else RAYS**0.5) / mean
     return of_interval(statistics.Interval(*(scale * end for end in found)), "%")
 
@@ -72,9 +70,9 @@ def _cost(noise: Quantity, time: Quantity) -> Quantity:
     return times(time, of_interval(statistics.Interval(value, low, high)), "µs")
 
 
-def forecast(found: Mapping[str, Quantity], way: str, lamps: int) -> float:
-    """`cost-…` beyond what is measured: time in proportion to the lamps, noise as with the most that are measured."""
-    return found[f"cost-{way}-{MOST}"].value * lamps / MOST
+def forecast(found: Mapping[str, Quantity], lamps: int) -> float:
+    """`cost-all-…` beyond what is measured: time in proportion to the lamps, noise as with the most that are asked."""
+    return found[f"cost-all-{MOST}"].value * lamps / MOST
 
 
 def _points(run: Run, how: str) -> Quantity:

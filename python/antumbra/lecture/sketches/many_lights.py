@@ -48,7 +48,7 @@ def plot(run: Run, found: Mapping[str, Quantity]) -> str:
     for way in WAYS:
         known = measured(run, way)
         cost = [found[f"cost-{way}-{k}"] for k in known]
-        beyond = [forecast(found, way, k) for k in counts if k not in known]
+        beyond = [forecast(found, k) for k in counts if k not in known]
         low, high = ([q.interval[end] for q in cost] + beyond for end in (0, 1))
         y, hollow = [q.value for q in cost] + beyond, [k not in known for k in counts]
         curves.append(

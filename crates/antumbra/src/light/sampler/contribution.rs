@@ -11,8 +11,10 @@ pub struct Contribution {
     far: FarLights,
 }
 
-/// More lights than this take longer to weigh than shadow rays save.
-const MOST: usize = 1024;
+/// Up to so many weights the roundings of the fast way are bounded.
+const FAST: usize = 1024;
+/// Among more lights a step of 2⁻²⁴, which each has at least, would be a share that shows.
+const MOST: usize = 1 << 20;
 
 impl LightSamplerKind for Contribution {
     fn new(lights: &[Light], _scene_radius: f32) -> Option<Contribution> {
@@ -23,9 +25,14 @@ impl LightSamplerKind for Contribution {
         // Weighed once: the sum needs every weight before the first share.
         let Scratch { weights, ends } = scratch;
         weights.resize(lights.len(), 0.0);
-        ends.resize(lights.len(), 0);
         self.far.weigh(lights, at, weights);
-        let any = steps::share_out_fast(weights, ends);
+        let any = if lights.len() > FAST {
+            steps::share_out(weights.iter().copied(), ends);
+            !ends.is_empty()
+        } else {
+            ends.resize(lights.len(), 0);
+            steps::share_out_fast(weights, ends)
+        };
         Chooser { ends: if any { ends } else { &[] } }
     }
 }
