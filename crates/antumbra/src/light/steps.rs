@@ -41,12 +41,15 @@ pub fn share_out(weights: impl Iterator<Item = f32> + Clone, ends: &mut Vec<u32>
     }));
 }
 
-/// As [`share_out`] for the weights of one receiver, many times a second: in f32 and without a step of one number after
-/// the other but a sum of whole numbers. What roundings leave, less than 2⁻¹³ of all, goes to the last weight above 0.
-/// `ends` is as long as `weights`; `false` if no weight is above 0.
+/// Up to so many weights the roundings of [`share_out_fast`] are bounded.
+pub const FAST: usize = 1024;
+
+/// As [`share_out`] for up to [`FAST`] weights of one receiver, many times a second: in f32 and without a step of one
+/// number after the other but a sum of whole numbers. What roundings leave, less than 2⁻¹³ of all, goes to the last
+/// weight above 0. `ends` is as long as `weights`; `false` if no weight is above 0.
 pub fn share_out_fast(weights: &[f32], ends: &mut [u32]) -> bool {
     const LANES: usize = 8;
-    /// What is kept back, so that the steps never sum to more than there are: 1024 weights, summed by eights, round to
+    /// What is kept back, so that the steps never sum to more than there are: `FAST` weights, summed by eights, round to
     /// less than 2⁻¹⁷ of their sum.
     const KEPT: f32 = 1.0 - 1.0 / 65_536.0;
     let usable = |w: f32| if w > 0.0 { w } else { 0.0 };

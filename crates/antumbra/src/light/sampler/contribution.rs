@@ -11,8 +11,6 @@ pub struct Contribution {
     far: FarLights,
 }
 
-/// Up to so many weights the roundings of the fast way are bounded.
-const FAST: usize = 1024;
 /// Among more lights a step of 2⁻²⁴, which each has at least, would be a share that shows.
 const MOST: usize = 1 << 20;
 
@@ -26,7 +24,7 @@ impl LightSamplerKind for Contribution {
         let Scratch { weights, ends } = scratch;
         weights.resize(lights.len(), 0.0);
         self.far.weigh(lights, at, weights);
-        let any = if lights.len() > FAST {
+        let any = if lights.len() > steps::FAST {
             steps::share_out(weights.iter().copied(), ends);
             !ends.is_empty()
         } else {
