@@ -277,6 +277,7 @@ fn albedo_is_the_mean_over_directions() {
                     | Bsdf::CoatedConductor(_)
                     | Bsdf::RoughDielectric(_)
                     | Bsdf::RoughThinDielectric(_)
+                    | Bsdf::Principled(_)
             );
             // Where total reflection sets in the curve falls like a root: 1/24^(3/2).
             let total =

@@ -17,6 +17,8 @@ mod metal;
 mod metallic_roughness;
 mod mirror;
 mod plastic;
+mod principled;
+mod rough_boundary;
 mod rough_coat;
 mod rough_conductor;
 mod rough_dielectric;
@@ -35,6 +37,7 @@ pub use metal::Metal;
 pub use metallic_roughness::MetallicRoughness;
 pub use mirror::Mirror;
 pub use plastic::{Coat, Plastic};
+pub use principled::Principled;
 pub use rough_coat::RoughCoat;
 pub use rough_conductor::RoughConductor;
 pub use rough_dielectric::RoughDielectric;
@@ -172,4 +175,5 @@ kinds!(
     RoughThinDielectric,
     Plastic,
     RoughPlastic,
+    Principled,
 );
