@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use antumbra::bsdf::{Facets, Metal};
+use antumbra::bsdf::{Facets, Metal, Principled};
 use antumbra::light::{
     Directional, Disk, Environment, Light, Point, Rectangle, Sphere, Spot, SpotEdge, Sun, Triangle,
 };
@@ -80,6 +80,7 @@ fn materials(scene: &mut SceneBuilder) {
     };
     let bump = Material { bump: Some(BumpMap { texture: p.plain, scale: 0.1 }), ..Material::diffuse(grey) };
     let emission = Some(Emission { radiance: Rgb::new(7.0, 0.3, 11.0), both_sides: true });
+    let disney = Principled { base: grey, metallic: 0.5, flatness: 0.125, ..Principled::default() };
     let varies = Some(Roughness::new(channel(p.plain, 0), false));
     let all = [
         Material::diffuse(grey),
@@ -104,6 +105,13 @@ fn materials(scene: &mut SceneBuilder) {
         Material { color: Some(p.screen), ..Material::plastic(Rgb::grey(0.5), 1.6, rough, false) },
         Material::blend(0, 2, 0.3),
         Material { back: Some(0), ..Material::diffuse(Rgb::WHITE) },
+        Material::principled(Principled { eta: 1.7, sheen: 0.25, clearcoat: 0.5, ..disney }),
+        Material { one_sided: true, ..Material::principled(disney) },
+        Material {
+            blend: Some(p.plain),
+            roughness: Some(Roughness::new(channel(p.plain, 1), true)),
+            ..Material::principled(Principled { spec_trans: 0.75, ..disney })
+        },
     ];
     for (i, material) in all.into_iter().enumerate() {
         let id = scene.material(material.named(format!("look {i}")));
@@ -225,13 +233,26 @@ fn mitsuba_looks_come_back_to_the_bit() {
     let folder = Folder::new("looks-xml");
     let scene = everything();
     let read = back(&folder, "a.xml", &scene);
-    for i in [0, 1, 2, 3, 11, 13, 14, 15, 16, 18] {
+    for i in [0, 1, 2, 11, 13, 14, 15, 16, 18, 22, 23] {
         let name = format!("look {i}");
         let a = &scene.materials[i];
         let b = read.materials.iter().find(|m| m.name == name.replace(' ', "_")).unwrap();
         assert_eq!((a.surface, a.one_sided), (b.surface, b.one_sided), "{name}");
     }
     let named = |name: &str| read.materials.iter().find(|m| m.name == name).unwrap();
+    // Metallic-roughness is written as principled, and glass that a picture mixes in comes back place by place.
+    let (Surface::Principled(mixed), Surface::Principled(glass)) =
+        (named("look_3").surface, named("look_24").surface)
+    else {
+        panic!()
+    };
+    let meant = Principled { base: Rgb::new(0.5, 0.25, 0.75), metallic: 0.5, ..Principled::default() };
+    assert_eq!(mixed, Principled { roughness: 0.7, ..meant });
+    assert_eq!(glass, Principled { flatness: 0.125, spec_trans: 1.0, roughness: 1.0, ..meant });
+    let [red, ..] = texel_of(&read, named("look_24").blend.unwrap(), [0.1, 0.2]);
+    let [plain, ..] = texel_of(&scene, scene.materials[24].blend.unwrap(), [0.1, 0.2]);
+    // The factor goes into a picture of bytes.
+    assert!((red - 0.75 * plain).abs() < 0.5 / 255.0 + 1e-6, "{red} {plain}");
     assert!(
         named("look_4").normal.is_some() && named("look_8").bump.is_some() && named("look_21").back.is_some()
     );

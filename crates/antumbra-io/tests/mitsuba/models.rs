@@ -1,5 +1,6 @@
 //! principled and sunsky: models of many numbers.
 
+use antumbra::bsdf::Principled;
 use antumbra::light::Light;
 use antumbra::math::{Rgb, Vec3, real};
 use antumbra::scene::{Material, SceneBuilder, Surface};
@@ -14,53 +15,65 @@ fn float(name: &str, value: f32) -> String {
     format!("<float name='{name}' value='{value}'/>")
 }
 
-/// (1−m)(1−t) diffuse, m metal, (1−m)t glass: whatever a blend makes of it, these are the shares.
+/// Every number arrives under its own name; what lets nothing through is black from behind.
 #[test]
-fn shares_of_a_principled_look_are_those_of_its_numbers() {
-    for (m, t) in [(0.0, 0.25), (0.2, 0.25), (0.5, 0.5), (0.75, 0.9)] {
-        let (s, look) = principled(&(float("metallic", m) + &float("spec_trans", t)));
-        let Surface::Blend { first, second, weight } = look.surface else { panic!("{look:?}") };
-        let part = |id: u32| &s.materials[id as usize];
-        let Surface::MetallicRoughness { metallic, .. } = part(first).surface else { panic!() };
-        let shares = [(1.0 - weight) * (1.0 - metallic), (1.0 - weight) * metallic, weight];
-        let meant = [(1.0 - m) * (1.0 - t), m, (1.0 - m) * t];
-        // Three roundings of numbers below 1.
-        assert!(shares.iter().zip(meant).all(|(a, b)| (a - b).abs() < 3e-7), "{shares:?} {meant:?}");
-        assert!(part(first).one_sided && !part(second).one_sided);
-    }
-    assert!(matches!(principled("").1.surface, Surface::MetallicRoughness { .. }));
-    // Metal lets nothing through.
-    let (_, metal) = principled(&(float("metallic", 1.0) + &float("spec_trans", 1.0)));
-    assert!(matches!(metal.surface, Surface::MetallicRoughness { metallic: 1.0, .. }));
+fn principled_has_all_its_numbers() {
+    let names =
+        ["metallic", "anisotropic", "spec_tint", "sheen", "sheen_tint", "clearcoat", "clearcoat_gloss"];
+    let inside: String =
+        names.iter().enumerate().map(|(i, name)| float(name, 0.1 * (i + 1) as f32)).collect();
+    let rest = float("flatness", 0.8) + &float("roughness", 0.9);
+    let color = "<rgb name='base_color' value='0.25 0.64 1'/>";
+    let (s, look) = principled(&(inside.clone() + &rest + color));
+    let meant = Principled {
+        base: Rgb([0.25, 0.64, 1.0]),
+        metallic: 0.1,
+        anisotropic: 0.2,
+        spec_tint: 0.3,
+        sheen: 0.4,
+        sheen_tint: 0.5,
+        clearcoat: 0.6,
+        clearcoat_gloss: 0.7,
+        flatness: 0.8,
+        roughness: 0.9,
+        ..Principled::default()
+    };
+    let Surface::Principled(told) = look.surface else { panic!("{look:?}") };
+    // `specular` 0.5 is the index 1.5, to the last bits of a root.
+    assert!((told.eta - 1.5).abs() < 1e-6, "{}", told.eta);
+    // 0.1 · 3 and the like, written to the digits that f32 needs.
+    let close = |a: f32, b: f32| (a - b).abs() < 1e-6;
+    let numbers = |p: &Principled| {
+        [p.metallic, p.anisotropic, p.spec_tint, p.sheen, p.sheen_tint, p.clearcoat, p.clearcoat_gloss]
+    };
+    assert!(numbers(&told).into_iter().zip(numbers(&meant)).all(|(a, b)| close(a, b)), "{told:?}");
+    assert_eq!((told.base, told.flatness, told.roughness), (meant.base, meant.flatness, meant.roughness));
+    assert!(look.one_sided && warnings(&s).iter().all(|w| !w.contains("principled")), "{:?}", warnings(&s));
+    let (_, glass) = principled(&(float("spec_trans", 0.5) + &float("eta", 1.33)));
+    assert!(!glass.one_sided);
+    assert!(matches!(glass.surface, Surface::Principled(p) if p.eta == 1.33 && p.spec_trans == 0.5));
 }
 
-/// `specular` and `eta` say the same thing: 0.5 is the index 1.5, whose F0 is 0.04.
+/// A picture says place by place what is metal, rough, and lets light through; of the other numbers its mean counts.
 #[test]
-fn specular_is_an_index_of_refraction() {
-    for inside in [float("specular", 0.5), float("eta", 1.5)] {
-        let (_, look) = principled(&inside);
-        assert!(matches!(look.surface, Surface::MetallicRoughness { f0, .. } if (f0 - 0.04).abs() < 1e-6));
-        let color = "<rgb name='base_color' value='0.25 0.64 1'/>";
-        let smooth = float("spec_trans", 1.0) + &float("roughness", 0.0);
-        let (_, glass) = principled(&(inside + &smooth + color));
-        let Surface::Dielectric(glass) = glass.surface else { panic!("{glass:?}") };
-        // Through both sides light takes the base colour once.
-        assert_eq!(glass.transmittance, Rgb([0.5, 0.8, 1.0]));
-    }
-}
-
-#[test]
-fn what_principled_leaves_out_is_named_once_with_its_line() {
-    let inside = float("sheen", 0.5)
-        + &float("clearcoat", 1.0)
-        + &float("clearcoat_gloss", 0.5)
-        + &float("flatness", 0.0);
+fn principled_has_textures() {
+    let field = |name: &str| {
+        format!("<texture name='{name}' type='checkerboard'><rgb name='color0' value='0'/></texture>")
+    };
+    let inside = ["spec_trans", "metallic", "base_color", "sheen"].map(field).concat();
     let s = scene(&format!("<shape type='cube'><bsdf type='principled'>{inside}</bsdf></shape>"));
-    let said: Vec<_> = warnings(&s).into_iter().filter(|w| w.contains("principled")).collect();
+    let look = &s.materials[s.objects[0].material as usize];
+    let said = "a texture on \"sheen\" of bsdf \"principled\": it counts by its mean";
+    assert!(warnings(&s).iter().any(|w| w.ends_with(said)), "{:?}", warnings(&s));
+    let red = |id: u32| s.textures[id as usize].at([0.2, 0.2])[0];
     assert_eq!(
-        said,
-        ["line 2, column 20: \"sheen\", \"clearcoat\" of bsdf \"principled\" left out: drawn without"]
+        [look.blend, look.metallic.map(|c| c.texture), look.color].map(|id| red(id.unwrap())),
+        [0.0; 3]
     );
+    let Surface::Principled(told) = look.surface else { panic!("{look:?}") };
+    // Half of Mitsuba's checkerboard is its second colour, 0.2.
+    assert!((told.sheen - 0.1).abs() < 1e-6 && told.spec_trans == 1.0, "{told:?}");
+    assert!(!look.one_sided);
 }
 
 /// Radiance from a direction, the sun apart.

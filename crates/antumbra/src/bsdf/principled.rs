@@ -87,6 +87,22 @@ impl Principled {
         Principled { turned: !self.turned, ..self }
     }
 
+    /// Every number that lies in [0, 1].
+    pub(crate) fn shares(&mut self) -> [&mut f32; 10] {
+        [
+            &mut self.metallic,
+            &mut self.roughness,
+            &mut self.anisotropic,
+            &mut self.spec_trans,
+            &mut self.spec_tint,
+            &mut self.sheen,
+            &mut self.sheen_tint,
+            &mut self.clearcoat,
+            &mut self.clearcoat_gloss,
+            &mut self.flatness,
+        ]
+    }
+
     /// (1−m)(1−t).
     #[inline]
     fn diffuse_weight(&self) -> f32 {

@@ -3,7 +3,7 @@
 use antumbra_math::{Rgb, hash};
 
 use super::{Body, Channel, Look, Material, Placed, Scene, Surface, TextureId};
-use crate::bsdf::{Bsdf, Diffuse, MetallicRoughness, Mirror, Plastic, RoughPlastic};
+use crate::bsdf::{Bsdf, Diffuse, MetallicRoughness, Mirror, Plastic, Principled, RoughPlastic};
 
 /// Tells the numbers of blends in blends apart.
 const BLENDED: u32 = 0x2c1b_3c6d;
@@ -27,6 +27,9 @@ impl Scene {
         };
         let tint = |c| self.tinted(c, material, at);
         let metal_rough = || self.metal_rough(material, at);
+        if let Surface::Principled(numbers) = material.surface {
+            return self.principled(numbers, material, at, front);
+        }
         if let Some(roughness) = &material.roughness {
             let texel = self.number(at, roughness.channel);
             if let Some(surface) = roughness.at(&material.surface, texel) {
@@ -34,6 +37,23 @@ impl Scene {
             }
         }
         reflection(&material.surface, front, tint, gloss, metal_rough)
+    }
+
+    /// Disney's model with its textures looked up.
+    #[inline(never)]
+    fn principled(&self, numbers: Principled, material: &Material, at: At<'_>, front: bool) -> Bsdf {
+        let [metal, rough] = self.metal_rough(material, at);
+        let [through, ..] = self.texel(at, material.blend).unwrap_or([1.0; 4]);
+        let looked_up = Principled {
+            base: self.tinted(numbers.base, material, at).map(|c| c.clamp(0.0, 1.0)),
+            metallic: (numbers.metallic * metal).clamp(0.0, 1.0),
+            roughness: (numbers.roughness * rough).clamp(0.0, 1.0),
+            spec_trans: (numbers.spec_trans * through).clamp(0.0, 1.0),
+            ..numbers
+        };
+        // Nothing passes: both sides look alike.
+        let alike = front || numbers.spec_trans <= 0.0;
+        Bsdf::Principled(if alike { looked_up } else { looked_up.turned() })
     }
 
     /// Factors of metallic and of roughness.
@@ -120,8 +140,10 @@ fn reflection(
             Bsdf::DiffuseTransmission(d.kept())
         }
         Surface::Mirror { reflectance } => Bsdf::Mirror(Mirror { reflectance: tint(reflectance) }),
-        // An unlit one's colour is shown by `shown`; of a blend, `material_at` has drawn one.
-        Surface::Unlit { .. } | Surface::Blend { .. } => Bsdf::Diffuse(Diffuse { albedo: Rgb::BLACK }),
+        // An unlit one's colour is shown by `shown`; of a blend, `material_at` has drawn one; `principled` has its own.
+        Surface::Unlit { .. } | Surface::Blend { .. } | Surface::Principled(_) => {
+            Bsdf::Diffuse(Diffuse { albedo: Rgb::BLACK })
+        }
         Surface::MetallicRoughness { base, metallic, roughness, f0 } => {
             let [metal, rough] = metal_rough();
             let (metallic, roughness) = (metallic * metal, roughness * rough);

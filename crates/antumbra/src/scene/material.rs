@@ -6,7 +6,7 @@ use antumbra_math::Rgb;
 
 use super::{Channel, Roughness, Surface};
 use crate::bsdf::{
-    Coat, CoatedConductor, Conductor, Dielectric, DiffuseTransmission, Facets, Metal, RoughCoat,
+    Coat, CoatedConductor, Conductor, Dielectric, DiffuseTransmission, Facets, Metal, Principled, RoughCoat,
     RoughConductor, RoughDielectric, RoughThinDielectric, ThinDielectric,
 };
 
@@ -72,7 +72,7 @@ pub struct Material {
     pub metallic: Option<Channel>,
     /// Texture of roughness.
     pub roughness: Option<Roughness>,
-    /// Texture of a blend's weight, plain numbers.
+    /// Texture of a blend's weight, or of spec_trans, plain numbers.
     pub blend: Option<TextureId>,
     /// Bends the shading normal.
     pub normal: Option<NormalMap>,
@@ -111,6 +111,11 @@ impl Material {
     /// A metallic-roughness surface.
     pub fn metallic_roughness(base: Rgb, metallic: f32, roughness: f32) -> Material {
         Material::of(Surface::MetallicRoughness { base, metallic, roughness, f0: 0.04 })
+    }
+
+    /// Disney's model.
+    pub fn principled(numbers: Principled) -> Material {
+        Material::of(Surface::Principled(numbers))
     }
 
     /// Metal, polished or with facets.
@@ -176,6 +181,9 @@ impl Material {
         let mut any = tame(&mut self.opacity);
         if let Surface::MetallicRoughness { metallic, roughness, f0, .. } = &mut self.surface {
             any |= tame(metallic) | tame(roughness) | tame(f0);
+        }
+        if let Surface::Principled(numbers) = &mut self.surface {
+            numbers.shares().into_iter().for_each(|x| any |= tame(x));
         }
         if let Surface::Blend { weight, .. } = &mut self.surface {
             any |= tame(weight);

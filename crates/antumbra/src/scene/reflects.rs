@@ -5,7 +5,7 @@ use antumbra_math::Rgb;
 use super::MaterialId;
 use crate::bsdf::{
     BsdfKind, Coat, CoatedConductor, Conductor, Dielectric, DiffuseTransmission, Facets, Metal, Mirror,
-    Plastic, RoughCoat, RoughConductor, RoughDielectric, RoughThinDielectric, ThinDielectric,
+    Plastic, Principled, RoughCoat, RoughConductor, RoughDielectric, RoughThinDielectric, ThinDielectric,
 };
 
 /// How a surface reflects, before textures are looked up.
@@ -71,6 +71,9 @@ pub enum Surface {
         /// Factor of what its facets reflect, times the gloss texture.
         gloss: Rgb,
     },
+    /// Disney's model: its base times the colour texture and the vertex colours, metallic and roughness times theirs,
+    /// spec_trans times the red of the blend texture.
+    Principled(Principled),
     /// One of two materials that stand before it in the scene, drawn by a hash of (ray number, primitive), so that light
     /// is reflected as by (1 − weight) f₁ + weight f₂. Their emission and alpha do not count: its own do.
     Blend {
@@ -101,6 +104,7 @@ impl Surface {
             | Surface::Unlit { .. }
             | Surface::MetallicRoughness { .. }
             | Surface::RoughPlastic { .. }
+            | Surface::Principled(_)
             | Surface::Blend { .. } => false,
         }
     }
@@ -109,6 +113,7 @@ impl Surface {
     pub(super) fn is_stretched(&self) -> bool {
         match self {
             Surface::CoatedConductor(c) => c.is_stretched(),
+            Surface::Principled(p) => p.facets().is_stretched(),
             _ => self.facets().is_some_and(Facets::is_stretched),
         }
     }
@@ -179,6 +184,7 @@ impl Surface {
             Surface::DiffuseTransmission(d) => (Some(&mut d.reflectance), Some(&mut d.transmittance)),
             Surface::Mirror { reflectance } => (Some(reflectance), None),
             Surface::MetallicRoughness { base, .. } => (Some(base), None),
+            Surface::Principled(p) => (Some(&mut p.base), None),
             Surface::Conductor(c) => (Some(&mut c.reflectance), None),
             Surface::RoughConductor(c) => (Some(&mut c.reflectance), None),
             Surface::CoatedConductor(c) => (Some(&mut c.reflectance), None),

@@ -208,6 +208,12 @@ impl Writer<'_, '_> {
                 let ior = if gloss.is_some() { None } else { index(f0) };
                 Look { base, metallic, roughness, ior, gloss, ..ROUGH }
             }
+            Surface::Principled(p) => {
+                said("is Disney's model");
+                let (base, metallic, roughness) = (p.base, p.metallic, p.roughness);
+                let ior = other(if p.eta < 1.0 { 1.0 / p.eta } else { p.eta });
+                Look { base, metallic, roughness, ior, through: p.spec_trans, body: true, ..ROUGH }
+            }
             Surface::Mirror { reflectance } => {
                 said("is a perfect mirror");
                 Look { base: reflectance, metallic: 1.0, roughness: 0.0, ..ROUGH }

@@ -1,6 +1,6 @@
 //! Looks: each material as bsdf plugins, and what wraps them.
 
-use antumbra::bsdf::{BsdfKind, Facets, Metal};
+use antumbra::bsdf::{BsdfKind, Facets, Metal, Principled};
 use antumbra::scene::{Material, MaterialId, Surface};
 use antumbra_math::Rgb;
 
@@ -60,13 +60,14 @@ impl Writer<'_, '_> {
             return Ok(Element::plugin("bsdf", "blendbsdf").add(weight).add(first).add(second));
         }
         let front = self.leaf(m, dress)?;
-        let glass = matches!(
-            m.surface,
+        let glass = match m.surface {
+            Surface::Principled(numbers) => numbers.spec_trans > 0.0,
             Surface::Dielectric(_)
-                | Surface::ThinDielectric(_)
-                | Surface::RoughDielectric(_)
-                | Surface::RoughThinDielectric(_)
-        );
+            | Surface::ThinDielectric(_)
+            | Surface::RoughDielectric(_)
+            | Surface::RoughThinDielectric(_) => true,
+            _ => false,
+        };
         let twosided = || Element::plugin("bsdf", "twosided");
         match m.back {
             Some(back) => {
@@ -151,7 +152,8 @@ impl Writer<'_, '_> {
                 self.rough(glass, m, d.facets(), dress)?
             }
             Surface::Plastic { .. } | Surface::RoughPlastic { .. } => self.plastic(m, dress)?,
-            Surface::MetallicRoughness { .. } => self.principled(m, dress)?,
+            Surface::MetallicRoughness { .. } => self.metallic_roughness(m, dress)?,
+            Surface::Principled(numbers) => self.principled(m, numbers, dress)?,
             Surface::Blend { .. } => return Err("a blend on the back of a material".into()),
         })
     }
@@ -200,19 +202,13 @@ impl Writer<'_, '_> {
     }
 
     /// The plugin nearest to metallic-roughness.
-    fn principled(&mut self, m: &Material, dress: Dress) -> Result<Element, String> {
+    fn metallic_roughness(&mut self, m: &Material, dress: Dress) -> Result<Element, String> {
         let Surface::MetallicRoughness { base, metallic, roughness, f0 } = m.surface else {
             return Err("no metallic-roughness".into());
         };
         let what = "is metallic-roughness: written as principled, which is darker where rough metal is meant";
         self.warn(format!("material \"{}\"", m.name), what);
-        let bsdf = Element::plugin("bsdf", "principled").add(self.color("base_color", base, m, dress)?);
-        let textured = dress != Dress::Plain;
-        let metal = m.metallic.filter(|_| textured).map(|c| (c.texture, Part::One(c.component)));
-        let rough = m.roughness.as_ref().filter(|_| textured);
-        let rough = rough.map(|r| (r.channel.texture, Part::One(r.channel.component)));
-        let bsdf = bsdf.add(self.measure("metallic", metallic, metal)?);
-        let bsdf = bsdf.add(self.measure("roughness", roughness, rough)?);
+        let bsdf = self.base_metal_rough(m, (base, metallic, roughness), dress)?;
         // Straight on, 0.08 is Mitsuba's largest.
         let specular = f0 / 0.08;
         Ok(if specular <= 1.0 {
@@ -220,6 +216,40 @@ impl Writer<'_, '_> {
         } else {
             bsdf.float("eta", (1.0 + f0.sqrt()) / (1.0 - f0.sqrt()))
         })
+    }
+
+    /// Disney's model: the same.
+    fn principled(&mut self, m: &Material, p: Principled, dress: Dress) -> Result<Element, String> {
+        let bsdf = self.base_metal_rough(m, (p.base, p.metallic, p.roughness), dress)?;
+        let through = m.blend.filter(|_| dress != Dress::Plain).map(|id| (id, Part::One(0)));
+        let bsdf = bsdf.float("eta", p.eta).add(self.measure("spec_trans", p.spec_trans, through)?);
+        let rest = [
+            ("anisotropic", p.anisotropic),
+            ("spec_tint", p.spec_tint),
+            ("sheen", p.sheen),
+            ("sheen_tint", p.sheen_tint),
+            ("clearcoat", p.clearcoat),
+            ("clearcoat_gloss", p.clearcoat_gloss),
+            ("flatness", p.flatness),
+        ];
+        let given = rest.into_iter().filter(|(_, value)| *value != 0.0);
+        Ok(given.fold(bsdf, |bsdf, (name, value)| bsdf.float(name, value)))
+    }
+
+    /// principled with what metallic-roughness has of it, textured.
+    fn base_metal_rough(
+        &mut self,
+        m: &Material,
+        (base, metallic, roughness): (Rgb, f32, f32),
+        dress: Dress,
+    ) -> Result<Element, String> {
+        let bsdf = Element::plugin("bsdf", "principled").add(self.color("base_color", base, m, dress)?);
+        let textured = dress != Dress::Plain;
+        let metal = m.metallic.filter(|_| textured).map(|c| (c.texture, Part::One(c.component)));
+        let rough = m.roughness.as_ref().filter(|_| textured);
+        let rough = rough.map(|r| (r.channel.texture, Part::One(r.channel.component)));
+        let bsdf = bsdf.add(self.measure("metallic", metallic, metal)?);
+        Ok(bsdf.add(self.measure("roughness", roughness, rough)?))
     }
 
     /// The colour of a surface, with its texture or that of the vertices.

@@ -74,6 +74,7 @@ fn tint(material: &Material) -> Option<Rgb> {
         Surface::Diffuse { albedo } => albedo,
         Surface::Plastic { albedo, .. } | Surface::RoughPlastic { albedo, .. } => albedo,
         Surface::MetallicRoughness { base, .. } => base,
+        Surface::Principled(p) => p.base,
         Surface::Unlit { color } => color,
         _ => return None,
     };
