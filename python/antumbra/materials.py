@@ -5,6 +5,7 @@ A `roughness` in [0, 1] is the perceptual one: GGX facets of α = roughness²; 0
 
 from __future__ import annotations
 
+import dataclasses
 from dataclasses import dataclass
 
 from antumbra._values import Color, Described, Fields, color, fraction, within
@@ -76,6 +77,38 @@ class MetallicRoughness(Described):
             "metallic": [fraction("metallic", self.metallic)],
             "roughness": [fraction("roughness", self.roughness)],
         }
+
+
+@dataclass(frozen=True)
+class Principled(Described):
+    """Disney's model as Mitsuba 3 has it (Burley 2012 and 2015): a base, facets, glass, sheen and a clear coat.
+
+    `base` colour in [0, 1], one number or three; `ior` from 0.1 to 10; every other number from 0 to 1. `metallic`,
+    `roughness` (α = roughness²) and `anisotropic` say how the facets reflect, `spec_trans` how much of what is not
+    metal is glass, `spec_tint` and `sheen_tint` how far a reflection takes the tint of the base. `clearcoat` is a
+    second lobe, narrow where `clearcoat_gloss` is 1; `flatness` goes from a rough diffuse base to one that light
+    wanders through.
+    Its parts are added: a white base, or sheen, gives back up to a quarter more light than it gets.
+    """
+
+    base: Color = 0.5
+    metallic: float = 0.0
+    roughness: float = 0.5
+    anisotropic: float = 0.0
+    ior: float = 1.5
+    spec_trans: float = 0.0
+    spec_tint: float = 0.0
+    sheen: float = 0.0
+    sheen_tint: float = 0.0
+    clearcoat: float = 0.0
+    clearcoat_gloss: float = 0.0
+    flatness: float = 0.0
+
+    def fields(self) -> Fields:
+        """Its numbers by name."""
+        names = [f.name for f in dataclasses.fields(self) if f.name not in ("base", "ior")]
+        shares = {name: [fraction(name, getattr(self, name))] for name in names}
+        return {"base": color("base", self.base), "ior": [within("ior", self.ior, 0.1, 10.0)], **shares}
 
 
 @dataclass(frozen=True)
@@ -204,6 +237,7 @@ Material = (
     | DiffuseTransmission
     | Mirror
     | MetallicRoughness
+    | Principled
     | Conductor
     | Dielectric
     | ThinDielectric

@@ -41,6 +41,23 @@ def test_a_rough_pane_spreads_what_it_lets_through():
         assert 1 - lost <= mean <= 1 + 1e-5, roughness
 
 
+def test_principled_glass_is_ground_glass():
+    """With `spec_trans` 1 and a white base nothing is left of Disney's model but ground glass of α = roughness²."""
+    sky = am.lights.Sky(elevation=0.5)
+    means = []
+    for glass in (
+        am.materials.Dielectric(1.5, 0.5),
+        am.materials.Principled(1.0, roughness=0.5, spec_trans=1.0),
+    ):
+        scene = floor(glass)
+        scene.add_light(sky)
+        image = seen(scene, 2, viewing_rays=256, size=(32, 24), seed=5)
+        means.append((image.pixels.mean(), image.standard_error.mean() / np.sqrt(32 * 24)))
+    (a, da), (b, db) = means
+    # Four standard errors: α below 10⁻⁴.
+    assert abs(a - b) < 4 * np.hypot(da, db) + 1e-6 < 0.02 * a, means
+
+
 def test_cloth_passes_light_on_to_its_other_side():
     """Under a far light of irradiance π: ρ from above, τ from below; what is more than 1 together is scaled down."""
     for (rho, tau), seen_as in (((0.2, 0.6), (0.2, 0.6)), ((0.6, 0.9), (0.4, 0.6))):

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use antumbra::bsdf::{Facets, Metal};
+use antumbra::bsdf::{Facets, Metal, Principled};
 use antumbra::light::sky::{SUN_HALF_ANGLE, Sky};
 use antumbra::light::{Directional, Disk, Environment, Light, Point, Rectangle, Sphere, Spot, Sun, Triangle};
 use antumbra::math::{Rgb, Vec3};
@@ -87,6 +87,21 @@ pub fn material(kind: &str, fields: &Fields, emission: Option<[f32; 3]>) -> PyRe
             fields.number("metallic")?,
             fields.number("roughness")?,
         ),
+        "Principled" => Material::principled(Principled {
+            base: fields.rgb("base")?,
+            metallic: fields.number("metallic")?,
+            roughness: fields.number("roughness")?,
+            anisotropic: fields.number("anisotropic")?,
+            eta: fields.number("ior")?,
+            spec_trans: fields.number("spec_trans")?,
+            spec_tint: fields.number("spec_tint")?,
+            sheen: fields.number("sheen")?,
+            sheen_tint: fields.number("sheen_tint")?,
+            clearcoat: fields.number("clearcoat")?,
+            clearcoat_gloss: fields.number("clearcoat_gloss")?,
+            flatness: fields.number("flatness")?,
+            turned: false,
+        }),
         "Conductor" => {
             Material::conductor(Metal { eta: fields.rgb("eta")?, k: fields.rgb("k")? }, fields.facets()?)
         }

@@ -1,7 +1,7 @@
 //! The principled model against Mitsuba's own numbers, the parameters one by one and all together; and what it gives back.
 
 use antumbra::bsdf::{BsdfKind, Principled};
-use antumbra::math::{Local, Rgb, Vec3};
+use antumbra::math::{Local, Rgb, Vec3, real};
 
 /// Made by `python tools/principled.py`, with mitsuba 3.9.1.
 const MITSUBA: &str = include_str!("principled.txt");
@@ -31,6 +31,36 @@ fn look(name: &str) -> Principled {
             ..plain
         },
         other => panic!("{other}"),
+    }
+}
+
+/// ∫ f cos θ_i dω_i over the side above, by midpoints in (cos², φ).
+fn albedo(look: &Principled, cos: f32) -> f32 {
+    let direction = |mu: f32, phi: f32| {
+        let sin = real::safe_sqrt(1.0 - mu * mu);
+        Local(Vec3::new(sin * real::cosf(phi), sin * real::sinf(phi), mu))
+    };
+    let (n, wo) = (400, direction(cos, 0.0));
+    let step = |i: i32| (i as f32 + 0.5) / n as f32;
+    let at = |k: i32| look.eval(wo, direction(step(k % n).sqrt(), 2.0 * real::PI * step(k / n))).mean();
+    (0..n * n).map(|k| f64::from(at(k))).sum::<f64>() as f32 * real::PI / (n * n) as f32
+}
+
+/// The parts are added, not weighed: what the model gives back of even light, held below what is written of it.
+#[test]
+fn white_looks_give_back_more_than_they_get() {
+    let white = Principled { base: Rgb::WHITE, ..Principled::default() };
+    let cosines = [1.0, 0.5, 0.2, 0.1, 0.05];
+    let told = [
+        ("grey 0.5", Principled::default(), 1.0),
+        ("white", white, 1.25),
+        ("white, sheen 1", Principled { sheen: 1.0, ..white }, 1.3),
+    ];
+    for (name, look, most) in told {
+        let all = cosines.map(|cos| albedo(&look, cos));
+        println!("{name:<15} {all:.3?} at cos θ {cosines:?}");
+        let peak = all.into_iter().fold(0.0, f32::max);
+        assert!(peak <= most && (peak > 1.0) == (most > 1.0), "{name}: {all:?}");
     }
 }
 

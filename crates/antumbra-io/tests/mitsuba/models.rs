@@ -76,6 +76,21 @@ fn principled_has_textures() {
     assert!(!look.one_sided);
 }
 
+/// Facets of two widths need to know where the tangents of a round shape lie: it becomes a mesh with texture coordinates.
+#[test]
+fn a_stretched_look_makes_a_mesh_of_a_ball() {
+    let stretched = "<float name='alpha_u' value='0.1'/><float name='alpha_v' value='0.3'/>";
+    for (bsdf, meshes) in [
+        (format!("<bsdf type='principled'>{}</bsdf>", float("anisotropic", 0.5)), 1),
+        (format!("<bsdf type='principled'>{}</bsdf>", float("sheen", 0.5)), 0),
+        (format!("<bsdf type='roughconductor'>{stretched}</bsdf>"), 1),
+        ("<bsdf type='roughconductor'/>".into(), 0),
+    ] {
+        let s = scene(&format!("<shape type='sphere'>{bsdf}</shape>"));
+        assert_eq!(s.meshes.len(), meshes, "{bsdf}");
+    }
+}
+
 /// Radiance from a direction, the sun apart.
 fn sky(inside: &str) -> (impl Fn(Vec3) -> Rgb + use<>, Option<(Vec3, f32, Rgb)>) {
     let s = scene(&format!("<shape type='cube'/><emitter type='sunsky'>{inside}</emitter>"));

@@ -8,8 +8,8 @@
 //! f_coat = ¼ clearcoat · (0.04 + 0.96 S(c_d)) · D_c(h) G_c(ω_o) G_c(ω_i), D_c with Burley's longest tails,
 //! f_facets = F D G₁G₁ / (4 μ_o μ_i), F = (1−m)((1−s) F_d + s Schlick(R₀ tint)) + m Schlick(base), s spec_tint; below the
 //! surface (1−m) t √base (1−F_d) times the refraction of `rough_boundary.rs`.
-//! The parts are added, not weighed against each other: at grazing angles a white base, or sheen, gives back more than it
-//! gets, as it does in Mitsuba. (`metallic_roughness.rs` never does.)
+//! The parts are added, not weighed against each other: a white base, or sheen, gives back more than it gets, most at grazing
+//! angles, as in Mitsuba. (`metallic_roughness.rs` never does.)
 
 use antumbra_math::{Local, Rgb, real, warp};
 

@@ -110,7 +110,7 @@ impl Surface {
     }
 
     /// Its facets are wider along one tangent than along the other, so that it matters where the tangents lie.
-    pub(super) fn is_stretched(&self) -> bool {
+    pub fn is_stretched(&self) -> bool {
         match self {
             Surface::CoatedConductor(c) => c.is_stretched(),
             Surface::Principled(p) => p.facets().is_stretched(),

@@ -92,7 +92,7 @@ impl<'a> Reader<'a> {
         let (material, written_out) = self.look(element, emission.is_some())?;
         let name = name(within.instance.filter(|i| i.given("id").is_some()).unwrap_or(element));
         let own = element.transform("to_world")?;
-        let textured = self.is_textured(&material);
+        let textured = self.needs_coordinates(&material);
         let placing = Placing {
             world: within.world.after(&own),
             mirrored: own.mirrors(),
@@ -133,10 +133,13 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// A look is painted with a texture; one of parts may be, where the scene has textures.
-    fn is_textured(&self, material: &Material) -> bool {
+    /// A look is painted with a texture or stretched along its tangents, so that it needs texture coordinates; one of parts
+    /// may be, where the scene has such.
+    fn needs_coordinates(&self, material: &Material) -> bool {
         let parts = matches!(material.surface, Surface::Blend { .. }) || material.back.is_some();
-        material.textures().next().is_some() || (parts && !self.scene.textures.is_empty())
+        let stretched = |m: &Material| m.surface.is_stretched();
+        let any = || !self.scene.textures.is_empty() || self.scene.materials.iter().any(stretched);
+        material.textures().next().is_some() || stretched(material) || (parts && any())
     }
 
     /// The material of a shape, and its id if shapes may share it.

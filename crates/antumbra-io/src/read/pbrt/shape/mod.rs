@@ -104,7 +104,7 @@ impl Reader<'_> {
         let area = area.filter(|_| !defining);
         let placing = Placing {
             world: self.world(),
-            mesh: defining || self.is_textured(&material),
+            mesh: defining || self.needs_coordinates(&material),
             reverse: self.state.reverse,
             shines: area.is_some(),
         };
@@ -166,10 +166,13 @@ impl Reader<'_> {
         }
     }
 
-    /// A look is painted with a texture; one of parts may be, where the scene has textures.
-    fn is_textured(&self, material: &Material) -> bool {
+    /// A look is painted with a texture or stretched along its tangents, so that it needs texture coordinates; one of parts
+    /// may be, where the scene has such.
+    fn needs_coordinates(&self, material: &Material) -> bool {
         let parts = matches!(material.surface, Surface::Blend { .. });
-        material.textures().next().is_some() || (parts && !self.scene.textures.is_empty())
+        let stretched = |m: &Material| m.surface.is_stretched();
+        let any = || !self.scene.textures.is_empty() || self.scene.materials.iter().any(stretched);
+        material.textures().next().is_some() || stretched(material) || (parts && any())
     }
 
     /// Area in the world.
