@@ -1,7 +1,7 @@
 # The verbs of this repository; `make` alone lists them. Everything they need is set up on the way.
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
-.PHONY: help demo lecture test lint bench stress agreement docs gallery wheel setup clean
+.PHONY: help demo lecture test lint bench fuzz stress agreement docs gallery wheel setup clean
 
 VENV := .venv
 RIVALS := .venv-bench
@@ -36,8 +36,12 @@ lint: $(VENV)/.dev ## form, types and lints of both languages
 	$(BIN)/python tools/third_party.py --check
 	$(BIN)/python tools/reference.py --check
 
-stress: $(VENV)/.dev ## the tests at full size (10⁸ rays; long)
+fuzz: ## random input for every reader, found by coverage (SECONDS=300 each, two at a time)
+	@tools/fuzz.sh $(or $(SECONDS),300)
+
+stress: $(VENV)/.dev ## the tests at full size (10⁸ rays), and half an hour of random input for every reader (long)
 	@ANTUMBRA_STRESS=1 tools/run_tests.sh
+	@tools/fuzz.sh 1800
 
 bench: $(RIVALS)/.ok ## measure speed: kernels, then races against other programs (RACE=--quick: small sizes)
 	@tools/run_benches.sh $(RACE)
