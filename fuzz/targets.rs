@@ -43,7 +43,8 @@ fn scene(format: Format, bytes: &[u8]) {
 /// A picture on a triangle.
 fn texture(bytes: &[u8]) {
     let files = [("m.mtl", b"newmtl a\nmap_Kd t.png\n".to_vec()), ("t.png", bytes.to_vec())];
-    let triangle = b"mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl a\nf 1/1 2/2 3/3\n";
+    let triangle =
+        b"mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl a\nf 1/1 2/2 3/3\n";
     with(Format::Obj, triangle, &beside(files), false);
 }
 

@@ -80,7 +80,6 @@ fn materials(scene: &mut SceneBuilder) {
     };
     let bump = Material { bump: Some(BumpMap { texture: p.plain, scale: 0.1 }), ..Material::diffuse(grey) };
     let emission = Some(Emission { radiance: Rgb::new(7.0, 0.3, 11.0), both_sides: true });
-    let disney = Principled { base: grey, metallic: 0.5, flatness: 0.125, ..Principled::default() };
     let varies = Some(Roughness::new(channel(p.plain, 0), false));
     let all = [
         Material::diffuse(grey),
@@ -105,19 +104,27 @@ fn materials(scene: &mut SceneBuilder) {
         Material { color: Some(p.screen), ..Material::plastic(Rgb::grey(0.5), 1.6, rough, false) },
         Material::blend(0, 2, 0.3),
         Material { back: Some(0), ..Material::diffuse(Rgb::WHITE) },
-        Material::principled(Principled { eta: 1.7, sheen: 0.25, clearcoat: 0.5, ..disney }),
-        Material { one_sided: true, ..Material::principled(disney) },
-        Material {
-            blend: Some(p.plain),
-            roughness: Some(Roughness::new(channel(p.plain, 1), true)),
-            ..Material::principled(Principled { spec_trans: 0.75, ..disney })
-        },
     ];
-    for (i, material) in all.into_iter().enumerate() {
+    for (i, material) in all.into_iter().chain(disneys(grey, p.plain)).enumerate() {
         let id = scene.material(material.named(format!("look {i}")));
         let mesh = squares(scene, i == 3);
         scene.place("square", mesh, id, Transform::translation(DVec3::new(1.5 * i as f64, 0.0, 0.0)));
     }
+}
+
+/// Disney's model: from both sides, from its front, with glass where a picture says so.
+fn disneys(base: Rgb, picture: TextureId) -> [Material; 3] {
+    let plain = Principled { base, metallic: 0.5, flatness: 0.125, ..Principled::default() };
+    let channel = Channel { texture: picture, component: 1 };
+    [
+        Material::principled(Principled { eta: 1.7, sheen: 0.25, clearcoat: 0.5, ..plain }),
+        Material { one_sided: true, ..Material::principled(plain) },
+        Material {
+            blend: Some(picture),
+            roughness: Some(Roughness::new(channel, true)),
+            ..Material::principled(Principled { spec_trans: 0.75, ..plain })
+        },
+    ]
 }
 
 fn lights(scene: &mut SceneBuilder) {

@@ -1,6 +1,6 @@
 //! Materials as metallic-roughness with its extensions: the same where the format has it, else the nearest.
 
-use antumbra::bsdf::{BsdfKind, Conductor, Facets, Metal};
+use antumbra::bsdf::{BsdfKind, Conductor, Facets, Metal, Principled};
 use antumbra::scene::{Alpha, Emission, Material, MaterialId, Surface};
 use antumbra_math::Rgb;
 use serde_json::{Map, Value, json};
@@ -192,7 +192,7 @@ impl Writer<'_, '_> {
     fn nearest(&mut self, surface: &Surface, place: &str) -> Look {
         let mut said = |what: &str| self.warn(place, format!("{what}: written as the nearest that glTF has"));
         let facets = surface.facets();
-        if facets.is_some_and(|f| f.is_stretched() || f.is_beckmann()) {
+        if surface.is_stretched() || facets.is_some_and(Facets::is_beckmann) {
             said("has facets of two widths, or Beckmann's");
         }
         match *surface {
@@ -203,16 +203,11 @@ impl Writer<'_, '_> {
             }
             Surface::Unlit { color } => Look { base: color, unlit: true, ..ROUGH },
             Surface::MetallicRoughness { base, metallic, roughness, f0 } => {
-                // Beyond, the index grows without end.
-                let gloss = (f0 > 0.5).then_some(f0 / 0.04);
-                let ior = if gloss.is_some() { None } else { index(f0) };
-                Look { base, metallic, roughness, ior, gloss, ..ROUGH }
+                Look { base, metallic, roughness, ..of_reflectance(f0) }
             }
             Surface::Principled(p) => {
                 said("is Disney's model");
-                let (base, metallic, roughness) = (p.base, p.metallic, p.roughness);
-                let ior = other(if p.eta < 1.0 { 1.0 / p.eta } else { p.eta });
-                Look { base, metallic, roughness, ior, through: p.spec_trans, body: true, ..ROUGH }
+                disney(&p)
             }
             Surface::Mirror { reflectance } => {
                 said("is a perfect mirror");
@@ -220,16 +215,15 @@ impl Writer<'_, '_> {
             }
             Surface::Conductor(Conductor { metal, reflectance }) => {
                 said("is a metal by its η and k");
-                Look { base: reflectance * straight_on(&metal), ..METAL }
+                metallic(&metal, reflectance, None)
             }
             Surface::RoughConductor(c) => {
                 said("is a metal by its η and k");
-                Look { base: c.reflectance * straight_on(&c.metal), roughness: rough(facets), ..METAL }
+                metallic(&c.metal, c.reflectance, facets)
             }
             Surface::CoatedConductor(c) => {
                 said("is metal under a clear coat, which is left out");
-                let base = c.reflectance * straight_on(&c.metal());
-                Look { base, roughness: rough(c.facets()), ..METAL }
+                metallic(&c.metal(), c.reflectance, c.facets())
             }
             Surface::Plastic { albedo, coat, .. } => {
                 said("is plastic");
@@ -307,6 +301,25 @@ fn extensions_of(look: &Look) -> Extensions {
         all.insert("KHR_materials_unlit", json!({}));
     }
     all
+}
+
+/// A dielectric that reflects `f0` straight on.
+fn of_reflectance(f0: f32) -> Look {
+    // Beyond, the index grows without end.
+    let gloss = (f0 > 0.5).then_some(f0 / 0.04);
+    Look { ior: if gloss.is_some() { None } else { index(f0) }, gloss, ..ROUGH }
+}
+
+/// A metal by what it reflects straight on.
+fn metallic(metal: &Metal, reflectance: Rgb, facets: Option<Facets>) -> Look {
+    Look { base: reflectance * straight_on(metal), roughness: rough(facets), ..METAL }
+}
+
+/// What metallic-roughness and transmission have of Disney's model.
+fn disney(p: &Principled) -> Look {
+    let ior = other(if p.eta < 1.0 { 1.0 / p.eta } else { p.eta });
+    let (base, metallic, roughness) = (p.base, p.metallic, p.roughness);
+    Look { base, metallic, roughness, ior, through: p.spec_trans, body: true, ..ROUGH }
 }
 
 /// The perceptual roughness of facets, of the mean of two widths.
