@@ -19,7 +19,7 @@ one() {
   local grown=../target/fuzz/grown/$1 log=../target/fuzz/$1.log
   mkdir -p "$grown"
   ANTUMBRA_FUZZ=$1 "$binary" "$grown" "corpus/$1" -max_total_time="$2" -timeout=10 -rss_limit_mb=3000 \
-    -max_len=16384 -artifact_prefix="found/$1-" >"$log" 2>&1 || { echo "$1: a finding, see fuzz/found and $log"; return 1; }
+    -max_len=16384 -artifact_prefix="found/$1-" >"$log" 2>&1 || { echo "$1: a finding, see fuzz/found and ${log#../}"; return 1; }
   echo "$1: $(tail -1 "$log")"
 }
 export -f one; export binary
