@@ -80,6 +80,29 @@ class MetallicRoughness(Described):
 
 
 @dataclass(frozen=True)
+class ClearCoat(Described):
+    """glTF's metallic-roughness model under a clear coat (KHR_materials_clearcoat): varnish, car paint.
+
+    `base`, `metallic` and `roughness` as in `MetallicRoughness`; the share `strength` of the surface lies under a coat of the
+    index of refraction 1.5 and the perceptual roughness `coat_roughness`. It gives back at most the light that it gets.
+    """
+
+    base: Color = 0.8
+    metallic: float = 0.0
+    roughness: float = 0.5
+    strength: float = 1.0
+    coat_roughness: float = 0.0
+
+    def fields(self) -> Fields:
+        """Its numbers by name."""
+        shares = ("metallic", "roughness", "strength", "coat_roughness")
+        return {
+            "base": color("base", self.base),
+            **{name: [fraction(name, getattr(self, name))] for name in shares},
+        }
+
+
+@dataclass(frozen=True)
 class Principled(Described):
     """Disney's model as Mitsuba 3 has it (Burley 2012 and 2015): a base, facets, glass, sheen and a clear coat.
 
@@ -237,6 +260,7 @@ Material = (
     | DiffuseTransmission
     | Mirror
     | MetallicRoughness
+    | ClearCoat
     | Principled
     | Conductor
     | Dielectric

@@ -265,6 +265,7 @@ def test_every_light_shape_and_material_is_made():
         m.DiffuseTransmission(0.2, (0.5, 0.3, 0.1)),
         m.Mirror(0.9),
         m.MetallicRoughness((1, 0.8, 0.3), 1.0, 0.3),
+        m.ClearCoat((0.8, 0.1, 0.1), metallic=0.5, coat_roughness=0.1),
         m.Principled((1, 0.8, 0.3), metallic=0.5, anisotropic=0.5, sheen=0.2, clearcoat=1.0),
         m.Principled(0.9, spec_trans=1.0, ior=1.33),
         m.Conductor("au"),

@@ -97,6 +97,38 @@ fn specular_weighs_the_gloss_of_what_is_no_metal() {
 }
 
 #[test]
+fn a_clear_coat_lies_on_metallic_roughness() {
+    let with = |pbr: &str, more: &str, coat: &str| {
+        look(&format!(
+            r#"{{"pbrMetallicRoughness":{{{pbr}}},"extensions":{{{more}"KHR_materials_clearcoat":{{{coat}}}}}}}"#
+        ))
+    };
+    let varnish = r#""clearcoatFactor":0.5,"clearcoatRoughnessFactor":0.25,"clearcoatTexture":{"index":0}"#;
+    let (s, m) = with(r#""metallicFactor":0.5"#, "", varnish);
+    let Surface::ClearCoat { metallic, strength, coat_roughness, .. } = m.surface else { panic!("{m:?}") };
+    assert!(s.messages.is_empty() && m.blend.is_some(), "{}", told(&s));
+    assert_eq!((metallic, strength, coat_roughness), (0.5, 0.5, 0.25));
+    // A coat of nothing is none.
+    let (s, m) = with("", "", r#""clearcoatRoughnessFactor":0.25"#);
+    assert!(s.messages.is_empty() && matches!(m.surface, Surface::MetallicRoughness { .. }));
+    let index = r#""KHR_materials_ior":{"ior":2},"#;
+    let (_, m) = with("", index, varnish);
+    assert!(matches!(m.surface, Surface::ClearCoat { f0, .. } if (f0 - 1.0 / 9.0).abs() < 1e-6), "{m:?}");
+    // What it has beyond that is named.
+    let textures = r#","clearcoatRoughnessTexture":{"index":0},"clearcoatNormalTexture":{"index":0}"#;
+    let (s, _) = with("", "", &format!("{varnish}{textures}"));
+    assert!(told(&s).contains("its factor holds everywhere") && told(&s).contains("bent"), "{}", told(&s));
+    let matt = r#""KHR_materials_specular":{"specularFactor":0},"#;
+    let (s, m) = with(r#""metallicFactor":0"#, matt, varnish);
+    assert!(told(&s).contains("without the coat") && matches!(m.surface, Surface::Diffuse { .. }));
+    let glass = r#""KHR_materials_transmission":{"transmissionFactor":1},"#;
+    let (s, _) = with(r#""metallicFactor":0"#, glass, varnish);
+    assert!(told(&s).contains("on glass"), "{}", told(&s));
+    let (s, _) = with("", "", r#""clearcoatFactor":"much""#);
+    assert!(told(&s).contains("is broken"), "{}", told(&s));
+}
+
+#[test]
 fn specular_and_glossiness_become_metallic_and_roughness() {
     let with = |more: &str| {
         look(&format!(r#"{{"extensions":{{"KHR_materials_pbrSpecularGlossiness":{{{more}}}}}}}"#))

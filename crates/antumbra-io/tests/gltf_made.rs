@@ -164,7 +164,7 @@ fn hidden_nodes_and_unknown_extensions() {
     let e = made.read(&format!(r#"{ONE_NODE}"extensionsRequired":["EXT_secret"],{PLAIN}"#)).unwrap_err();
     assert!(e.what.contains("EXT_secret") && !e.hint.is_empty(), "{e}");
     let looks =
-        format!(r#"{ONE_NODE}"extensionsRequired":["KHR_materials_clearcoat","EXT_texture_avif"],{PLAIN}"#);
+        format!(r#"{ONE_NODE}"extensionsRequired":["KHR_materials_sheen","EXT_texture_avif"],{PLAIN}"#);
     assert_eq!(made.read(&looks).unwrap().messages.len(), 1);
 }
 

@@ -102,6 +102,7 @@ fn material_kinds(scene: &Scene) -> BTreeMap<&'static str, usize> {
             Surface::DiffuseTransmission(_) => "thin cloth",
             Surface::Mirror { .. } => "mirror",
             Surface::MetallicRoughness { .. } => "metallic-roughness",
+            Surface::ClearCoat { .. } => "clear coat",
             Surface::Principled(_) => "principled",
             Surface::Unlit { .. } => "unlit",
             Surface::Conductor(_) => "metal",

@@ -87,6 +87,12 @@ pub fn material(kind: &str, fields: &Fields, emission: Option<[f32; 3]>) -> PyRe
             fields.number("metallic")?,
             fields.number("roughness")?,
         ),
+        "ClearCoat" => Material::metallic_roughness(
+            fields.rgb("base")?,
+            fields.number("metallic")?,
+            fields.number("roughness")?,
+        )
+        .coated(fields.number("strength")?, fields.number("coat_roughness")?),
         "Principled" => Material::principled(Principled {
             base: fields.rgb("base")?,
             metallic: fields.number("metallic")?,

@@ -278,6 +278,7 @@ fn albedo_is_the_mean_over_directions() {
                     | Bsdf::RoughDielectric(_)
                     | Bsdf::RoughThinDielectric(_)
                     | Bsdf::Principled(_)
+                    | Bsdf::ClearCoat(_)
             );
             // Where total reflection sets in the curve falls like a root: 1/24^(3/2).
             let total =

@@ -83,6 +83,11 @@ impl CoatedConductor {
         Metal { eta: self.metal.eta * self.eta, k: self.metal.k * self.eta }
     }
 
+    /// The facets of the coat.
+    pub fn coat(&self) -> Option<Facets> {
+        self.coat
+    }
+
     /// The facets of the metal as they are seen through the coat.
     pub fn facets(&self) -> Option<Facets> {
         self.under

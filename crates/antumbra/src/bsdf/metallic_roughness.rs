@@ -185,6 +185,6 @@ impl BsdfKind for MetallicRoughness {
 }
 
 /// Into [0, 1]; not-a-number becomes 0.
-fn unit(x: f32) -> f32 {
+pub(super) fn unit(x: f32) -> f32 {
     if x > 0.0 { x.min(1.0) } else { 0.0 }
 }

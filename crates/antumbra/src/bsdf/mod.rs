@@ -4,6 +4,7 @@
 //! Laws of every kind: f(ω_o, ω_i) n_i² = f(ω_i, ω_o) n_o² (n the index of refraction on the side of each direction),
 //! albedo ≤ 1, `sample` agrees with `pdf` (χ²), finite at grazing.
 
+mod clear_coat;
 mod coated_conductor;
 mod conductor;
 mod dielectric;
@@ -26,6 +27,7 @@ mod rough_plastic;
 mod rough_thin_dielectric;
 mod thin_dielectric;
 
+pub use clear_coat::ClearCoat;
 pub use coated_conductor::CoatedConductor;
 pub use conductor::Conductor;
 pub use dielectric::Dielectric;
@@ -176,4 +178,5 @@ kinds!(
     Plastic,
     RoughPlastic,
     Principled,
+    ClearCoat,
 );

@@ -169,15 +169,14 @@ impl Principled {
 
     /// α of the coat: 0.1 wide to 0.001 narrow.
     #[inline]
-    fn coat_alpha2(&self) -> f32 {
-        let alpha = 0.1 + (0.001 - 0.1) * self.clearcoat_gloss;
-        alpha * alpha
+    pub fn coat_alpha(&self) -> f32 {
+        0.1 + (0.001 - 0.1) * self.clearcoat_gloss
     }
 
     /// D_c = (α²−1) / (π ln α² (sin² + α² cos²)) of the half vector.
     #[inline]
     fn coat_d(&self, wo: Local, wi: Local) -> f32 {
-        let (v, a2) = (wo.0 + wi.0, self.coat_alpha2());
+        let (v, a2) = (wo.0 + wi.0, self.coat_alpha() * self.coat_alpha());
         let across = v.x * v.x + v.y * v.y;
         let square = (across + v.z * v.z).max(f32::MIN_POSITIVE);
         (a2 - 1.0) * real::INV_PI * square
@@ -206,7 +205,7 @@ impl Principled {
     /// ω_o mirrored about a normal of p(h) = D_c cos θ_h: cos² θ_h = (1 − α^(2(1−u))) / (1 − α²).
     #[inline]
     fn coat_sample(&self, wo: Local, u: [f32; 2]) -> Local {
-        let a2 = self.coat_alpha2();
+        let a2 = self.coat_alpha() * self.coat_alpha();
         let cos2 = ((1.0 - real::powf(a2, 1.0 - u[0])) / (1.0 - a2)).clamp(0.0, 1.0);
         let (sin, phi) = ((1.0 - cos2).sqrt(), 2.0 * real::PI * u[1]);
         let m = Local::new(sin * real::cosf(phi), sin * real::sinf(phi), cos2.sqrt() * wo.cos().signum()).0;

@@ -3,7 +3,7 @@
 use antumbra_math::{Rgb, hash};
 
 use super::{Body, Channel, Look, Material, Placed, Scene, Surface, TextureId};
-use crate::bsdf::{Bsdf, Diffuse, MetallicRoughness, Mirror, Plastic, Principled, RoughPlastic};
+use crate::bsdf::{Bsdf, ClearCoat, Diffuse, MetallicRoughness, Mirror, Plastic, Principled, RoughPlastic};
 
 /// Tells the numbers of blends in blends apart.
 const BLENDED: u32 = 0x2c1b_3c6d;
@@ -27,8 +27,10 @@ impl Scene {
         };
         let tint = |c| self.tinted(c, material, at);
         let metal_rough = || self.metal_rough(material, at);
-        if let Surface::Principled(numbers) = material.surface {
-            return self.principled(numbers, material, at, front);
+        match material.surface {
+            Surface::Principled(numbers) => return self.principled(numbers, material, at, front),
+            Surface::ClearCoat { .. } => return self.clear_coat(material, at),
+            _ => {}
         }
         if let Some(roughness) = &material.roughness {
             let texel = self.number(at, roughness.channel);
@@ -54,6 +56,20 @@ impl Scene {
         // Nothing passes: both sides look alike.
         let alike = front || numbers.spec_trans <= 0.0;
         Bsdf::Principled(if alike { looked_up } else { looked_up.turned() })
+    }
+
+    /// Metallic-roughness under its coat, with the textures looked up.
+    #[inline(never)]
+    fn clear_coat(&self, material: &Material, at: At<'_>) -> Bsdf {
+        let Surface::ClearCoat { base, metallic, roughness, f0, strength, coat_roughness } = material.surface
+        else {
+            return Bsdf::Diffuse(Diffuse { albedo: Rgb::BLACK });
+        };
+        let [metal, rough] = self.metal_rough(material, at);
+        let [coated, ..] = self.texel(at, material.blend).unwrap_or([1.0; 4]);
+        let base = self.tinted(base, material, at);
+        let base = MetallicRoughness::of_index(base, metallic * metal, roughness * rough, f0);
+        Bsdf::ClearCoat(ClearCoat::new(base, strength * coated, coat_roughness))
     }
 
     /// Factors of metallic and of roughness.
@@ -140,10 +156,11 @@ fn reflection(
             Bsdf::DiffuseTransmission(d.kept())
         }
         Surface::Mirror { reflectance } => Bsdf::Mirror(Mirror { reflectance: tint(reflectance) }),
-        // An unlit one's colour is shown by `shown`; of a blend, `material_at` has drawn one; `principled` has its own.
-        Surface::Unlit { .. } | Surface::Blend { .. } | Surface::Principled(_) => {
-            Bsdf::Diffuse(Diffuse { albedo: Rgb::BLACK })
-        }
+        // An unlit one's colour is shown by `shown`; of a blend, `material_at` has drawn one; the others have their own.
+        Surface::Unlit { .. }
+        | Surface::Blend { .. }
+        | Surface::Principled(_)
+        | Surface::ClearCoat { .. } => Bsdf::Diffuse(Diffuse { albedo: Rgb::BLACK }),
         Surface::MetallicRoughness { base, metallic, roughness, f0 } => {
             let [metal, rough] = metal_rough();
             let (metallic, roughness) = (metallic * metal, roughness * rough);

@@ -72,7 +72,7 @@ pub struct Material {
     pub metallic: Option<Channel>,
     /// Texture of roughness.
     pub roughness: Option<Roughness>,
-    /// Texture of a blend's weight, or of spec_trans, plain numbers.
+    /// Texture of a blend's weight, of spec_trans, or of a clear coat's strength, plain numbers.
     pub blend: Option<TextureId>,
     /// Bends the shading normal.
     pub normal: Option<NormalMap>,
@@ -111,6 +111,13 @@ impl Material {
     /// A metallic-roughness surface.
     pub fn metallic_roughness(base: Rgb, metallic: f32, roughness: f32) -> Material {
         Material::of(Surface::MetallicRoughness { base, metallic, roughness, f0: 0.04 })
+    }
+
+    /// The same under a clear coat, if it is metallic-roughness: the coat's share of the surface and its roughness.
+    pub fn coated(self, strength: f32, coat_roughness: f32) -> Material {
+        let Surface::MetallicRoughness { base, metallic, roughness, f0 } = self.surface else { return self };
+        let surface = Surface::ClearCoat { base, metallic, roughness, f0, strength, coat_roughness };
+        Material { surface, ..self }
     }
 
     /// Disney's model.
@@ -181,6 +188,11 @@ impl Material {
         let mut any = tame(&mut self.opacity);
         if let Surface::MetallicRoughness { metallic, roughness, f0, .. } = &mut self.surface {
             any |= tame(metallic) | tame(roughness) | tame(f0);
+        }
+        if let Surface::ClearCoat { metallic, roughness, f0, strength, coat_roughness, .. } =
+            &mut self.surface
+        {
+            any |= tame(metallic) | tame(roughness) | tame(f0) | tame(strength) | tame(coat_roughness);
         }
         if let Surface::Principled(numbers) = &mut self.surface {
             numbers.shares().into_iter().for_each(|x| any |= tame(x));

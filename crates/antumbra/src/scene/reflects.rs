@@ -71,6 +71,21 @@ pub enum Surface {
         /// Factor of what its facets reflect, times the gloss texture.
         gloss: Rgb,
     },
+    /// glTF's metallic-roughness under a clear coat.
+    ClearCoat {
+        /// As in metallic-roughness, as are the next three.
+        base: Rgb,
+        /// See base.
+        metallic: f32,
+        /// See base.
+        roughness: f32,
+        /// See base.
+        f0: f32,
+        /// How much of it is coated, times the red of the blend texture.
+        strength: f32,
+        /// Perceptual roughness of the coat.
+        coat_roughness: f32,
+    },
     /// Disney's model: its base times the colour texture and the vertex colours, metallic and roughness times theirs,
     /// spec_trans times the red of the blend texture.
     Principled(Principled),
@@ -105,6 +120,7 @@ impl Surface {
             | Surface::MetallicRoughness { .. }
             | Surface::RoughPlastic { .. }
             | Surface::Principled(_)
+            | Surface::ClearCoat { .. }
             | Surface::Blend { .. } => false,
         }
     }
@@ -183,7 +199,7 @@ impl Surface {
             }
             Surface::DiffuseTransmission(d) => (Some(&mut d.reflectance), Some(&mut d.transmittance)),
             Surface::Mirror { reflectance } => (Some(reflectance), None),
-            Surface::MetallicRoughness { base, .. } => (Some(base), None),
+            Surface::MetallicRoughness { base, .. } | Surface::ClearCoat { base, .. } => (Some(base), None),
             Surface::Principled(p) => (Some(&mut p.base), None),
             Surface::Conductor(c) => (Some(&mut c.reflectance), None),
             Surface::RoughConductor(c) => (Some(&mut c.reflectance), None),

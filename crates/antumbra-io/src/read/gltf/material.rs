@@ -11,6 +11,7 @@ use antumbra_math::Rgb;
 use serde::Deserialize;
 
 use super::Reader;
+use super::clear_coat::CLEARCOAT;
 use super::document::{GltfMaterial, TextureInfo};
 use super::specular::{GLOSSINESS, SPECULAR};
 use super::texture::Images;
@@ -68,7 +69,7 @@ impl Reader<'_> {
         let base = if m.extensions.contains_key(UNLIT) {
             self.unlit(m)
         } else if let Some(glossy) = self.glossiness(m, &place) {
-            glossy
+            self.clear_coat(m, glossy, &place)
         } else {
             self.metallic_roughness(m, &place)
         };
@@ -107,7 +108,11 @@ impl Reader<'_> {
             ..Material::diffuse(base)
         };
         let opaque = self.specular(m, opaque, place);
+        let opaque = self.clear_coat(m, opaque, place);
         let Some((share, through)) = self.through(m, place) else { return opaque };
+        if matches!(opaque.surface, Surface::ClearCoat { .. }) {
+            self.said.warn(place, format!("{CLEARCOAT} on glass: its glass is drawn without the coat"));
+        }
         let glass = Material {
             surface: self.glass(m, ior),
             color,
@@ -199,7 +204,7 @@ impl Reader<'_> {
             let how = match name.as_str() {
                 "KHR_materials_emissive_strength" | "KHR_materials_variants" => continue,
                 "KHR_materials_transmission" | "KHR_materials_ior" | UNLIT => continue,
-                SPECULAR | GLOSSINESS => continue,
+                SPECULAR | GLOSSINESS | CLEARCOAT => continue,
                 "KHR_materials_volume" if m.extensions[name].get("attenuationColor").is_none() => continue,
                 "KHR_materials_volume" => "drawn without the colour of its depth",
                 _ => "drawn without it",

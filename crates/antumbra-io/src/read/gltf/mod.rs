@@ -4,6 +4,7 @@ mod accessor;
 mod animation;
 mod buffers;
 mod camera;
+mod clear_coat;
 mod container;
 mod document;
 pub(crate) mod draco;

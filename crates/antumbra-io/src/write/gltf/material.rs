@@ -29,6 +29,8 @@ struct Look {
     specular: Option<f32>,
     /// The grey colour of KHR_materials_specular, where an index of refraction would be too large.
     gloss: Option<f32>,
+    /// KHR_materials_clearcoat: how much of it is coated, and the roughness of the coat.
+    coat: Option<[f32; 2]>,
     /// KHR_materials_transmission.
     through: f32,
     /// A body of glass, not a pane.
@@ -44,6 +46,7 @@ const ROUGH: Look = Look {
     ior: None,
     specular: None,
     gloss: None,
+    coat: None,
     through: 0.0,
     body: false,
     unlit: false,
@@ -90,8 +93,13 @@ impl Writer<'_, '_> {
                 written.insert("normalTexture".into(), info);
                 asks.tangents = true;
             }
-            if let (Some(through), Some(blend)) = (extensions.get_mut(TRANSMISSION), m.blend) {
-                through["transmissionTexture"] = self.plain_texture(blend, &mut asks)?;
+            let coated = part.blend.filter(|_| matches!(part.surface, Surface::ClearCoat { .. }));
+            let shares =
+                [(TRANSMISSION, "transmissionTexture", m.blend), (CLEARCOAT, "clearcoatTexture", coated)];
+            for (extension, name, texture) in shares {
+                if let (Some(written), Some(texture)) = (extensions.get_mut(extension), texture) {
+                    written[name] = self.plain_texture(texture, &mut asks)?;
+                }
             }
         }
         written.insert("pbrMetallicRoughness".into(), Value::Object(pbr));
@@ -158,7 +166,9 @@ impl Writer<'_, '_> {
             Surface::ThinDielectric(_) | Surface::RoughThinDielectric(_) => Some(false),
             _ => None,
         };
-        if let (Surface::MetallicRoughness { .. }, Some(body)) = (parts[0].surface, glass) {
+        let opaque =
+            matches!(parts[0].surface, Surface::MetallicRoughness { .. } | Surface::ClearCoat { .. });
+        if let (true, Some(body)) = (opaque, glass) {
             let look = self.nearest(&parts[0].surface, place);
             return (Look { through: weight, body, ..look }, parts[0]);
         }
@@ -205,6 +215,10 @@ impl Writer<'_, '_> {
             Surface::MetallicRoughness { base, metallic, roughness, f0 } => {
                 Look { base, metallic, roughness, ..of_reflectance(f0) }
             }
+            Surface::ClearCoat { base, metallic, roughness, f0, strength, coat_roughness } => {
+                let coat = Some([strength, coat_roughness]);
+                Look { base, metallic, roughness, coat, ..of_reflectance(f0) }
+            }
             Surface::Principled(p) => {
                 said("is Disney's model");
                 disney(&p)
@@ -222,8 +236,8 @@ impl Writer<'_, '_> {
                 metallic(&c.metal, c.reflectance, facets)
             }
             Surface::CoatedConductor(c) => {
-                said("is metal under a clear coat, which is left out");
-                metallic(&c.metal(), c.reflectance, c.facets())
+                said("is metal under a clear coat");
+                Look { coat: Some([1.0, rough(c.coat())]), ..metallic(&c.metal(), c.reflectance, c.facets()) }
             }
             Surface::Plastic { albedo, coat, .. } => {
                 said("is plastic");
@@ -233,32 +247,23 @@ impl Writer<'_, '_> {
                 said("is plastic");
                 Look { base: albedo, roughness: rough(facets), ior: other(coat.eta()), ..ROUGH }
             }
-            Surface::Dielectric(d) => {
-                self.glass(d.index_below(), d.transmittance, d.reflectance, 0.0, true, place)
-            }
-            Surface::RoughDielectric(d) => {
-                self.glass(d.index_below(), d.transmittance, d.reflectance, rough(facets), true, place)
-            }
-            Surface::ThinDielectric(d) => {
-                self.glass(Some(d.eta()), d.transmittance, d.reflectance, 0.0, false, place)
-            }
-            Surface::RoughThinDielectric(d) => {
-                self.glass(Some(d.eta()), d.transmittance, d.reflectance, rough(facets), false, place)
-            }
+            Surface::Dielectric(_)
+            | Surface::RoughDielectric(_)
+            | Surface::ThinDielectric(_)
+            | Surface::RoughThinDielectric(_) => self.glass(surface, place),
             // Parts that are blends are looked through before.
             Surface::Blend { .. } => ROUGH,
         }
     }
 
-    fn glass(
-        &mut self,
-        eta: Option<f32>,
-        transmittance: Rgb,
-        reflectance: Rgb,
-        roughness: f32,
-        body: bool,
-        place: &str,
-    ) -> Look {
+    fn glass(&mut self, surface: &Surface, place: &str) -> Look {
+        let (eta, transmittance, reflectance, body) = match surface {
+            Surface::Dielectric(d) => (d.index_below(), d.transmittance, d.reflectance, true),
+            Surface::RoughDielectric(d) => (d.index_below(), d.transmittance, d.reflectance, true),
+            Surface::ThinDielectric(d) => (Some(d.eta()), d.transmittance, d.reflectance, false),
+            Surface::RoughThinDielectric(d) => (Some(d.eta()), d.transmittance, d.reflectance, false),
+            _ => (None, Rgb::WHITE, Rgb::WHITE, true),
+        };
         let eta = eta.unwrap_or(1.5);
         if eta < 1.0 {
             self.warn(
@@ -270,7 +275,7 @@ impl Writer<'_, '_> {
             self.warn(place, "dims what it mirrors: glTF's glass does not");
         }
         let ior = other(if eta < 1.0 { 1.0 / eta } else { eta });
-        Look { base: transmittance, roughness, ior, through: 1.0, body, ..ROUGH }
+        Look { base: transmittance, roughness: rough(surface.facets()), ior, through: 1.0, body, ..ROUGH }
     }
 }
 
@@ -278,6 +283,7 @@ impl Writer<'_, '_> {
 type Extensions = std::collections::BTreeMap<&'static str, Value>;
 
 const TRANSMISSION: &str = "KHR_materials_transmission";
+const CLEARCOAT: &str = "KHR_materials_clearcoat";
 
 fn extensions_of(look: &Look) -> Extensions {
     let mut all = Extensions::new();
@@ -290,6 +296,10 @@ fn extensions_of(look: &Look) -> Extensions {
             specular["specularColorFactor"] = numbers([gloss; 3]);
         }
         all.insert("KHR_materials_specular", specular);
+    }
+    if let Some([factor, roughness]) = look.coat {
+        let coat = json!({"clearcoatFactor": number(factor), "clearcoatRoughnessFactor": number(roughness)});
+        all.insert(CLEARCOAT, coat);
     }
     if look.through > 0.0 {
         all.insert(TRANSMISSION, json!({"transmissionFactor": number(look.through)}));
@@ -315,11 +325,13 @@ fn metallic(metal: &Metal, reflectance: Rgb, facets: Option<Facets>) -> Look {
     Look { base: reflectance * straight_on(metal), roughness: rough(facets), ..METAL }
 }
 
-/// What metallic-roughness and transmission have of Disney's model.
+/// What metallic-roughness, coat and transmission have of Disney's model.
 fn disney(p: &Principled) -> Look {
     let ior = other(if p.eta < 1.0 { 1.0 / p.eta } else { p.eta });
     let (base, metallic, roughness) = (p.base, p.metallic, p.roughness);
-    Look { base, metallic, roughness, ior, through: p.spec_trans, body: true, ..ROUGH }
+    // Its coat is a quarter of glTF's.
+    let coat = (p.clearcoat > 0.0).then(|| [0.25 * p.clearcoat, p.coat_alpha().sqrt()]);
+    Look { base, metallic, roughness, ior, coat, through: p.spec_trans, body: true, ..ROUGH }
 }
 
 /// The perceptual roughness of facets, of the mean of two widths.

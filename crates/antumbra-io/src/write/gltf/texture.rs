@@ -170,13 +170,13 @@ impl Writer<'_, '_> {
 }
 
 fn is_metal_rough(surface: &Surface) -> bool {
-    matches!(surface, Surface::MetallicRoughness { .. } | Surface::Principled(_))
+    matches!(surface, Surface::MetallicRoughness { .. } | Surface::ClearCoat { .. } | Surface::Principled(_))
 }
 
 /// Its metallic factor is 0 in the format.
 fn no_metal(surface: &Surface) -> bool {
     match surface {
-        Surface::MetallicRoughness { metallic, .. } => *metallic == 0.0,
+        Surface::MetallicRoughness { metallic, .. } | Surface::ClearCoat { metallic, .. } => *metallic == 0.0,
         Surface::Principled(p) => p.metallic == 0.0,
         Surface::RoughConductor(_) => false,
         _ => true,

@@ -152,7 +152,13 @@ impl Writer<'_, '_> {
                 self.rough(glass, m, d.facets(), dress)?
             }
             Surface::Plastic { .. } | Surface::RoughPlastic { .. } => self.plastic(m, dress)?,
-            Surface::MetallicRoughness { .. } => self.metallic_roughness(m, dress)?,
+            Surface::MetallicRoughness { base, metallic, roughness, f0 } => {
+                self.metallic_roughness(m, (base, metallic, roughness), f0, dress)?
+            }
+            Surface::ClearCoat { base, metallic, roughness, f0, strength, coat_roughness } => {
+                let bsdf = self.metallic_roughness(m, (base, metallic, roughness), f0, dress)?;
+                self.coat(bsdf, m, strength, coat_roughness)
+            }
             Surface::Principled(numbers) => self.principled(m, numbers, dress)?,
             Surface::Blend { .. } => return Err("a blend on the back of a material".into()),
         })
@@ -202,13 +208,16 @@ impl Writer<'_, '_> {
     }
 
     /// The plugin nearest to metallic-roughness.
-    fn metallic_roughness(&mut self, m: &Material, dress: Dress) -> Result<Element, String> {
-        let Surface::MetallicRoughness { base, metallic, roughness, f0 } = m.surface else {
-            return Err("no metallic-roughness".into());
-        };
+    fn metallic_roughness(
+        &mut self,
+        m: &Material,
+        look: (Rgb, f32, f32),
+        f0: f32,
+        dress: Dress,
+    ) -> Result<Element, String> {
         let what = "is metallic-roughness: written as principled, which is darker where rough metal is meant";
         self.warn(format!("material \"{}\"", m.name), what);
-        let bsdf = self.base_metal_rough(m, (base, metallic, roughness), dress)?;
+        let bsdf = self.base_metal_rough(m, look, dress)?;
         // Straight on, 0.08 is Mitsuba's largest.
         let specular = f0 / 0.08;
         Ok(if specular <= 1.0 {
@@ -216,6 +225,16 @@ impl Writer<'_, '_> {
         } else {
             bsdf.float("eta", (1.0 + f0.sqrt()) / (1.0 - f0.sqrt()))
         })
+    }
+
+    /// A clear coat as principled has it.
+    fn coat(&mut self, bsdf: Element, m: &Material, strength: f32, roughness: f32) -> Element {
+        let what = "is under a clear coat: written as that of principled, which is a quarter as strong";
+        self.warn(format!("material \"{}\"", m.name), what);
+        let mean = m.blend.map_or(1.0, |t| self.job.texture(t).image.mean().0[0]);
+        // α = 0.1 + (0.001 − 0.1) gloss.
+        let gloss = ((0.1 - roughness * roughness) / 0.099).clamp(0.0, 1.0);
+        bsdf.float("clearcoat", strength * mean).float("clearcoat_gloss", gloss)
     }
 
     /// Disney's model: the same.

@@ -73,7 +73,7 @@ fn tint(material: &Material) -> Option<Rgb> {
     let color = match material.surface {
         Surface::Diffuse { albedo } => albedo,
         Surface::Plastic { albedo, .. } | Surface::RoughPlastic { albedo, .. } => albedo,
-        Surface::MetallicRoughness { base, .. } => base,
+        Surface::MetallicRoughness { base, .. } | Surface::ClearCoat { base, .. } => base,
         Surface::Principled(p) => p.base,
         Surface::Unlit { color } => color,
         _ => return None,
