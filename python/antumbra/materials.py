@@ -83,9 +83,9 @@ class MetallicRoughness(Described):
 class ClearCoat(Described):
     """glTF's metallic-roughness model under a clear coat (KHR_materials_clearcoat): varnish, car paint.
 
-    `base`, `metallic` and `roughness` as in `MetallicRoughness`; the share `strength` of the surface lies under a coat of
-    the index of refraction 1.5 and the perceptual roughness `coat_roughness`. It gives back at most the light that it
-    gets.
+    `base`, `metallic` and `roughness` as in `MetallicRoughness`; the share `strength` of the surface lies under a coat
+    of the index of refraction 1.5 and the perceptual roughness `coat_roughness`. It gives back at most the light that
+    it gets.
     """
 
     base: Color = 0.8
