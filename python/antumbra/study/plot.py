@@ -174,7 +174,9 @@ class _Page:
         for value, y in self._placed([v for v in given if low <= v <= high], 1):
             self.path([_LEFT, _RIGHT], [y, y], "gr")
             written = f"1/{round(1 / value)}" if parts and _is_part(value) else _written(value)
-            self.text(_LEFT - 8, self.height - y + 5, written, "s", "end")
+            # In the corner it stands on the axis, clear of the tick below.
+            base = min(self.height - y + 5, self.height - bottom - 2)
+            self.text(_LEFT - 8, base, written, "s", "end")
 
     def _placed(self, values: Sequence[float], axis: int) -> list[tuple[float, float]]:
         """Ticks and their places, without those that would touch the one before."""

@@ -52,6 +52,15 @@ def test_ticks_are_those_of_the_lecture():
     assert shown == ["1", "9", "36", "100", "1", "1/3", "1/6", "1/10", "RMSE", "shadow rays, N"]
 
 
+def test_ticks_in_the_corner_stand_clear_of_each_other():
+    """However near the axis the lowest tick of the left lies, its label ends above that of the axis."""
+    for least in np.geomspace(10, 13, 40):
+        made = plot.error_curves([plot.Curve("a", [10, 1e3], [least, 1e3])], x_title="", y_title="", label="")
+        tens = re.findall(r'y="([0-9.]+)" text-anchor="(\w+)">10<', made)
+        places = {anchor: float(y) for y, anchor in tens}
+        assert places["middle"] - places.get("end", 0.0) >= 28
+
+
 def test_the_same_curves_give_the_same_bits():
     assert drawn(curves("a", "b")) == drawn(curves("a", "b"))
 
